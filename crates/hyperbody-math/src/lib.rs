@@ -1,0 +1,28 @@
+//! Linear and geometric algebra in `N` dimensions, `N` = 2..=6, written once for every `N`.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`vector`] | points and directions |
+//! | [`matrix`] | square matrices, solving, eigenvectors of symmetric ones |
+//! | [`bivector`] | oriented planes: angular velocity, angular momentum, torque |
+//! | [`rotation`] | orthogonal matrices of determinant one |
+//! | [`pose`] | a rotation followed by a translation |
+//! | [`planes`] | the order of the coordinate planes and the names of the axes |
+//! | [`scalar`] | the only door to transcendental functions, the same bits on every platform |
+//!
+//! Conventions: axes are x y z w v u; planes are axis pairs (i, j), i < j, in lexicographic order; a positive angle in
+//! plane (i, j) turns axis i towards axis j.
+
+pub mod bivector;
+pub mod matrix;
+pub mod planes;
+pub mod pose;
+pub mod rotation;
+pub mod scalar;
+pub mod vector;
+
+pub use bivector::Bivector;
+pub use matrix::Matrix;
+pub use pose::Pose;
+pub use rotation::Rotation;
+pub use vector::Vector;

@@ -1,0 +1,152 @@
+//! Rotations as orthogonal matrices of determinant one: what the simulation steps.
+//!
+//! From four dimensions up the matrix composes as cheaply as the rotor (64 against 64 multiplications in 4D, 125
+//! against 256 in 5D, 216 against 1024 in 6D) and turns vectors far more cheaply.
+
+use std::ops::Mul;
+
+use crate::{Bivector, Matrix, Vector, scalar};
+
+/// A rotation of `N`-dimensional space. Angles in radians; a positive angle in plane (i, j) turns axis i towards j.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation<const N: usize> {
+    /// Orthogonal, determinant one, to rounding.
+    m: Matrix<N>,
+}
+
+impl<const N: usize> Rotation<N> {
+    /// No rotation.
+    pub const IDENTITY: Self = Self { m: Matrix::IDENTITY };
+
+    /// Largest entry of RᵀR − 1 that [`Rotation::from_matrix`] accepts: matrices typed by hand with seven digits pass.
+    pub const ORTHOGONALITY_TOLERANCE: f64 = 1e-6;
+
+    /// The turn by `angle_rad` that takes axis i towards axis j.
+    ///
+    /// # Panics
+    /// If i = j or an axis is not below `N`.
+    #[must_use]
+    pub fn in_plane(i: usize, j: usize, angle_rad: f64) -> Self {
+        assert!(i != j && i < N && j < N, "a plane needs two different axes below {N}, got ({i}, {j})");
+        let (sin, cos) = scalar::sin_cos(angle_rad);
+        let mut m = Matrix::IDENTITY;
+        m[i][i] = cos;
+        m[j][j] = cos;
+        m[j][i] = sin;
+        m[i][j] = -sin;
+        Self { m }
+    }
+
+    /// The rotation with the given matrix, cleaned of rounding, or `None` if RᵀR differs from one by more than
+    /// [`Rotation::ORTHOGONALITY_TOLERANCE`] or the determinant is negative.
+    #[must_use]
+    pub fn from_matrix(m: Matrix<N>) -> Option<Self> {
+        let defect = (m.transpose() * m - Matrix::IDENTITY).max_abs();
+        if !(m.is_finite() && defect <= Self::ORTHOGONALITY_TOLERANCE && m.determinant() > 0.0) {
+            return None;
+        }
+        let mut rotation = Self { m };
+        for _ in 0..2 {
+            rotation.reorthonormalize();
+        }
+        Some(rotation)
+    }
+
+    /// Trusts the caller that `m` is a rotation to rounding.
+    pub(crate) const fn from_matrix_unchecked(m: Matrix<N>) -> Self {
+        Self { m }
+    }
+
+    /// The matrix.
+    #[inline]
+    #[must_use]
+    pub fn matrix(&self) -> &Matrix<N> {
+        &self.m
+    }
+
+    /// The inverse rotation.
+    #[inline]
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        Self { m: self.m.transpose() }
+    }
+
+    /// The turned vector.
+    #[inline]
+    #[must_use]
+    pub fn rotate(&self, v: Vector<N>) -> Vector<N> {
+        self.m * v
+    }
+
+    /// The vector that this rotation would turn into `v`.
+    #[inline]
+    #[must_use]
+    pub fn inverse_rotate(&self, v: Vector<N>) -> Vector<N> {
+        self.m.transpose_mul(v)
+    }
+
+    /// The turned bivector, R B Rᵀ.
+    #[inline]
+    #[must_use]
+    pub fn rotate_bivector(&self, b: &Bivector<N>) -> Bivector<N> {
+        Bivector::from_antisymmetric_part(&(self.m * b.to_matrix() * self.m.transpose()))
+    }
+
+    /// The bivector that this rotation would turn into `b`.
+    #[inline]
+    #[must_use]
+    pub fn inverse_rotate_bivector(&self, b: &Bivector<N>) -> Bivector<N> {
+        Bivector::from_antisymmetric_part(&(self.m.transpose() * b.to_matrix() * self.m))
+    }
+
+    /// The rotation reached after one unit of time at the constant angular velocity `b`: the matrix exponential, by
+    /// scaling and squaring around a Taylor series, exact to rounding. Double rotations need no special case.
+    #[must_use]
+    pub fn exp(b: &Bivector<N>) -> Self {
+        // The matrix that maps r to r·B is the transpose of B's.
+        let mut a = b.to_matrix().transpose();
+        // Row sums bound the spectral norm; halve until the series converges in 13 terms to 2⁻⁵³.
+        let bound = a.0.iter().map(|row| row.iter().map(|c| c.abs()).sum::<f64>()).fold(0.0, f64::max);
+        let mut halvings = 0;
+        let mut scale = 1.0;
+        while bound * scale > 0.5 && halvings < 64 {
+            scale *= 0.5;
+            halvings += 1;
+        }
+        a = a * scale;
+        let mut sum = Matrix::IDENTITY;
+        for term in (1..=13).rev() {
+            sum = Matrix::IDENTITY + (a * sum) * (1.0 / f64::from(term));
+        }
+        for _ in 0..halvings {
+            sum = sum * sum;
+        }
+        let mut rotation = Self { m: sum };
+        rotation.reorthonormalize();
+        rotation
+    }
+
+    /// One Newton step R ← ½R(3 − RᵀR) towards the nearest rotation (the polar factor): squares the deviation, so
+    /// that rounding from composing never builds up.
+    #[inline]
+    pub fn reorthonormalize(&mut self) {
+        let gram = self.m.transpose() * self.m;
+        let correction = Matrix::from_fn(|i, j| (if i == j { 1.5 } else { 0.0 }) - 0.5 * gram[i][j]);
+        self.m = self.m * correction;
+    }
+}
+
+impl<const N: usize> Default for Rotation<N> {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl<const N: usize> Mul for Rotation<N> {
+    type Output = Self;
+    /// The rotation by `other` followed by `self`.
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        Self { m: self.m * other.m }
+    }
+}
