@@ -3,7 +3,8 @@
 //! | module | holds |
 //! |---|---|
 //! | [`vector`] | points and directions |
-//! | [`matrix`] | square matrices, solving, eigenvectors of symmetric ones |
+//! | [`matrix`] | square matrices, determinants, solving |
+//! | [`eigen`] | eigenvalues and eigenvectors of symmetric matrices |
 //! | [`bivector`] | oriented planes: angular velocity, angular momentum, torque |
 //! | [`rotation`] | orthogonal matrices of determinant one |
 //! | [`pose`] | a rotation followed by a translation |
@@ -14,6 +15,7 @@
 //! plane (i, j) turns axis i towards axis j.
 
 pub mod bivector;
+pub mod eigen;
 pub mod matrix;
 pub mod planes;
 pub mod pose;
@@ -22,6 +24,7 @@ pub mod scalar;
 pub mod vector;
 
 pub use bivector::Bivector;
+pub use eigen::symmetric_eigen;
 pub use matrix::Matrix;
 pub use pose::Pose;
 pub use rotation::Rotation;

@@ -174,10 +174,8 @@ impl<const N: usize> Vector<N> {
         u.0[k] += sign;
         let factor = 2.0 / u.norm_sq();
         let mut basis = [Self::ZERO; N];
-        let mut count = 0;
-        for axis in (0..N).filter(|&axis| axis != k) {
-            basis[count] = Self::unit(axis) - u * (factor * u.0[axis]);
-            count += 1;
+        for (slot, axis) in (0..N).filter(|&axis| axis != k).enumerate() {
+            basis[slot] = Self::unit(axis) - u * (factor * u.0[axis]);
         }
         basis
     }
