@@ -1,2 +1,48 @@
-//! See ARCHITECTURE.md.
-fn main() {}
+//! The chores of this workspace in Rust, so that they run wherever the project builds: `cargo xtask --help`.
+
+mod bench;
+mod hashes;
+mod process;
+mod scenes;
+mod test;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// What a chore ends with; the message is for a person.
+type Outcome<T = ()> = Result<T, String>;
+
+/// Chores of the Hyperbody workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", disable_help_subcommand = true)]
+struct Arguments {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand)]
+enum Chore {
+    /// Checks everything: format, lints, documentation, tests in debug and in release, and that every build, thread
+    /// count and repetition gives the same bits on the built-in scenes
+    Test(test::TestArguments),
+    /// Times the built-in scenes (or others) and saves the figures under target/bench, with machine and commit
+    Bench(bench::BenchArguments),
+    /// Writes the files that are generated from the built-in scenes
+    Scenes(scenes::ScenesArguments),
+}
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().chore {
+        Chore::Test(arguments) => test::run(&arguments),
+        Chore::Bench(arguments) => bench::run(&arguments),
+        Chore::Scenes(arguments) => scenes::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Starting cargo and its kin from the workspace root.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::Outcome;
+
+/// The root of the workspace.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask lies one level below the workspace root")
+}
+
+/// `cargo` with the given arguments, in the workspace root.
+pub(crate) fn cargo(arguments: &[&str]) -> Command {
+    // Cargo tells its children which cargo they run under.
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root()).args(arguments);
+    command
+}
+
+/// Runs a command, its output going to the terminal.
+pub(crate) fn run(command: &mut Command) -> Outcome {
+    let line = line_of(command);
+    let status = command.status().map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    if status.success() { Ok(()) } else { Err(format!("`{line}` ended with {status}")) }
+}
+
+/// Runs a command and returns what it printed on standard output; its standard error goes to the terminal.
+pub(crate) fn read(command: &mut Command) -> Outcome<String> {
+    let line = line_of(command);
+    command.stderr(std::process::Stdio::inherit());
+    let output = command.output().map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("`{line}` ended with {}", output.status));
+    }
+    String::from_utf8(output.stdout).map_err(|_| format!("`{line}` printed something that is not UTF-8"))
+}
+
+/// Whether a command starts and succeeds; prints nothing.
+pub(crate) fn succeeds(command: &mut Command) -> bool {
+    command.output().is_ok_and(|output| output.status.success())
+}
+
+/// The folder that cargo builds into.
+pub(crate) fn target_directory() -> Outcome<PathBuf> {
+    let text = read(&mut cargo(&["metadata", "--no-deps", "--format-version", "1"]))?;
+    let metadata: serde_json::Value =
+        serde_json::from_str(&text).map_err(|error| format!("cargo metadata printed no JSON: {error}"))?;
+    let directory = metadata["target_directory"].as_str().ok_or("cargo metadata names no target_directory")?;
+    Ok(directory.into())
+}
+
+/// Builds the program `hyperbody` and returns its path.
+pub(crate) fn build_hyperbody(release: bool) -> Outcome<PathBuf> {
+    let mut arguments = vec!["build", "--quiet", "--package", "hyperbody-cli", "--bin", "hyperbody"];
+    if release {
+        arguments.push("--release");
+    }
+    run(&mut cargo(&arguments))?;
+    let profile = if release { "release" } else { "debug" };
+    Ok(target_directory()?.join(profile).join(format!("hyperbody{}", std::env::consts::EXE_SUFFIX)))
+}
+
+fn line_of(command: &Command) -> String {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,93 @@
+//! `cargo xtask test`: the one command that says whether the tree is sound; `.ci/run` calls it too.
+
+use std::time::Instant;
+
+use clap::Args;
+
+use crate::process::{cargo, run as run_command, succeeds};
+use crate::{Outcome, hashes, scenes};
+
+#[derive(Args)]
+pub(crate) struct TestArguments {
+    /// Only format, lints and the tests in debug: for the minutes between two edits
+    #[arg(long)]
+    quick: bool,
+}
+
+/// One stage: what it is called, and what it does.
+struct Stage {
+    name: &'static str,
+    /// The rustup component that it needs beyond a minimal toolchain.
+    component: Option<&'static str>,
+    /// Whether `--quick` has it.
+    quick: bool,
+    action: fn() -> Outcome,
+}
+
+const STAGES: [Stage; 7] = [
+    Stage {
+        name: "format",
+        component: Some("rustfmt"),
+        quick: true,
+        action: || cargo_run(&["fmt", "--all", "--check"]),
+    },
+    Stage { name: "lints", component: Some("clippy"), quick: true, action: lints },
+    Stage { name: "documentation", component: None, quick: false, action: documentation },
+    Stage { name: "tests, debug", component: None, quick: true, action: || cargo_run(&["test", "--workspace"]) },
+    Stage {
+        name: "tests, release",
+        component: None,
+        quick: false,
+        action: || cargo_run(&["test", "--workspace", "--release"]),
+    },
+    Stage { name: "generated files", component: None, quick: false, action: scenes::check },
+    Stage { name: "state hashes", component: None, quick: false, action: hashes::check },
+];
+
+pub(crate) fn run(arguments: &TestArguments) -> Outcome {
+    let stages: Vec<&Stage> = STAGES.iter().filter(|stage| stage.quick || !arguments.quick).collect();
+    let start = Instant::now();
+    for (position, stage) in stages.iter().enumerate() {
+        println!("==> [{}/{}] {}", position + 1, stages.len(), stage.name);
+        if let Some(component) = stage.component
+            && !component_is_there(component)?
+        {
+            println!("    skipped: this toolchain has no {component}; `rustup component add {component}` installs it");
+            continue;
+        }
+        let stage_start = Instant::now();
+        (stage.action)().map_err(|message| format!("stage \"{}\" failed: {message}", stage.name))?;
+        println!("    ok, {:.1} s", stage_start.elapsed().as_secs_f64());
+    }
+    println!("==> all {} stages passed, {:.0} s", stages.len(), start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+fn cargo_run(arguments: &[&str]) -> Outcome {
+    run_command(&mut cargo(arguments))
+}
+
+fn lints() -> Outcome {
+    cargo_run(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])
+}
+
+fn documentation() -> Outcome {
+    run_command(cargo(&["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "--deny warnings"))
+}
+
+/// Whether the toolchain has a component; under CI a missing one is installed, and never skipped.
+fn component_is_there(component: &str) -> Outcome<bool> {
+    let subcommand = if component == "rustfmt" { "fmt" } else { component };
+    let is_there = || succeeds(&mut cargo(&[subcommand, "--version"]));
+    if is_there() {
+        return Ok(true);
+    }
+    if std::env::var_os("CI").is_none_or(|value| value != "true") {
+        return Ok(false);
+    }
+    let installed = succeeds(std::process::Command::new("rustup").args(["component", "add", component]));
+    if installed && is_there() {
+        return Ok(true);
+    }
+    Err(format!("this toolchain has no {component}, and `rustup component add {component}` did not help"))
+}
