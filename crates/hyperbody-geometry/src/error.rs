@@ -3,6 +3,9 @@
 use std::error::Error;
 use std::fmt;
 
+/// The result of making or reading a shape.
+pub type Result<T> = std::result::Result<T, GeometryError>;
+
 /// Why a shape could not be made: the message gives the value, the limit and the remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeometryError {

@@ -7,6 +7,7 @@
 //! | [`polytope`] | [`Polytope`]: vertices, facets and their incidences |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
+//! | [`tolerances`] | every limit and tolerance, with its reason |
 //! | [`error`] | [`GeometryError`] |
 
 pub mod aabb;
@@ -15,10 +16,11 @@ pub mod error;
 pub mod mass;
 pub mod polytope;
 pub mod shape;
+pub mod tolerances;
 
 pub use aabb::Aabb;
 pub use convex::{Convex, Core};
-pub use error::GeometryError;
+pub use error::{GeometryError, GeometryErrorKind, Result};
 pub use mass::MassProperties;
 pub use polytope::Polytope;
-pub use shape::Shape;
+pub use shape::{Piece, Shape};
