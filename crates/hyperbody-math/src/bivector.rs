@@ -9,7 +9,7 @@
 
 use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::{Matrix, Vector, planes};
+use crate::{Givens, Matrix, Vector, planes};
 
 /// A sum of oriented planes; component (i, j) = −component (j, i).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,14 +118,11 @@ impl<const N: usize> Bivector<N> {
         result
     }
 
-    /// The commutator product A × B = ½(AB − BA) of the geometric algebra, again a bivector; its matrix is AB − BA.
-    ///
-    /// A bivector `b` fixed to a body of angular velocity `w` changes at the rate `b.commutator(&w)`, as a fixed vector
-    /// `r` moves at `w.act_on(r)`. Euler's equation in the body frame is I(ω̇) = ω × I(ω) + τ.
+    /// The commutator product ½(AB − BA) of the geometric algebra, again a bivector. Its matrix is BA − AB.
     #[must_use]
     pub fn commutator(&self, other: &Self) -> Self {
         let (a, b) = (self.to_matrix(), other.to_matrix());
-        Self { m: (a * b - b * a).0 }
+        Self { m: (b * a - a * b).0 }
     }
 
     /// Inner product: the sum over planes of the products of the numbers.
@@ -167,6 +164,22 @@ impl<const N: usize> Bivector<N> {
             }
         }
         result
+    }
+
+    /// Rewrites the numbers of a bivector fixed in space for a frame that has been turned by `turn` in its plane from
+    /// axis i to axis j: B ← Gᵀ B G.
+    ///
+    /// # Panics
+    /// If an axis is not below `N`.
+    #[inline]
+    pub fn change_to_turned_frame(&mut self, i: usize, j: usize, turn: Givens) {
+        for k in 0..N {
+            if k != i && k != j {
+                let (a, b) = turn.components_in_turned_axes(self.m[i][k], self.m[j][k]);
+                (self.m[i][k], self.m[k][i]) = (a, -a);
+                (self.m[j][k], self.m[k][j]) = (b, -b);
+            }
+        }
     }
 
     /// Whether every number is finite.

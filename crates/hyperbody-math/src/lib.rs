@@ -6,6 +6,7 @@
 //! | [`matrix`] | square matrices, determinants, solving |
 //! | [`eigen`] | eigenvalues and eigenvectors of symmetric matrices |
 //! | [`bivector`] | oriented planes: angular velocity, angular momentum, torque |
+//! | [`givens`] | turns in one coordinate plane |
 //! | [`rotation`] | orthogonal matrices of determinant one |
 //! | [`pose`] | a rotation followed by a translation |
 //! | [`planes`] | the order of the coordinate planes and the names of the axes |
@@ -16,6 +17,7 @@
 
 pub mod bivector;
 pub mod eigen;
+pub mod givens;
 pub mod matrix;
 pub mod planes;
 pub mod pose;
@@ -25,6 +27,7 @@ pub mod vector;
 
 pub use bivector::Bivector;
 pub use eigen::symmetric_eigen;
+pub use givens::Givens;
 pub use matrix::Matrix;
 pub use pose::Pose;
 pub use rotation::Rotation;
