@@ -118,11 +118,14 @@ impl<const N: usize> Bivector<N> {
         result
     }
 
-    /// The commutator product ½(AB − BA) of the geometric algebra, again a bivector. Its matrix is BA − AB.
+    /// The commutator product A × B = ½(AB − BA) of the geometric algebra, again a bivector; its matrix is AB − BA.
+    ///
+    /// A bivector `b` fixed to a body of angular velocity `w` changes at the rate `b.commutator(&w)`, as a fixed vector
+    /// `r` moves at `w.act_on(r)`. Euler's equation in the body frame is I(ω̇) = ω × I(ω) + τ.
     #[must_use]
     pub fn commutator(&self, other: &Self) -> Self {
         let (a, b) = (self.to_matrix(), other.to_matrix());
-        Self { m: (b * a - a * b).0 }
+        Self { m: (a * b - b * a).0 }
     }
 
     /// Inner product: the sum over planes of the products of the numbers.

@@ -2,6 +2,8 @@
 //! same cases.
 #![allow(dead_code, unreachable_pub, reason = "each test program uses its own part")]
 
+pub mod dense;
+
 use hyperbody_math::{Bivector, Matrix, Rotation, Vector, planes};
 
 pub struct Random(u64);
