@@ -5,6 +5,7 @@
 //! | [`shape`] | [`Shape`]: everything a body can be made of |
 //! | [`convex`] | [`Convex`]: a core rounded by a radius, the form in which collision sees every convex shape |
 //! | [`polytope`] | [`Polytope`]: vertices, facets and their incidences |
+//! | [`hull`] | the convex hull of points |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
 //! | [`tolerances`] | every limit and tolerance, with its reason |
@@ -13,6 +14,8 @@
 pub mod aabb;
 pub mod convex;
 pub mod error;
+pub mod hull;
+mod incidence;
 pub mod mass;
 pub mod polytope;
 pub mod shape;

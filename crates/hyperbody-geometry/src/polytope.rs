@@ -2,6 +2,10 @@
 
 use hyperbody_math::Vector;
 
+use crate::error::GeometryErrorKind::BadNumber;
+use crate::tolerances::MIN_CLIMBING_VERTICES;
+use crate::{GeometryError, Result, hull, incidence};
+
 /// A convex polytope with non-empty interior. Vertices, facets and neighbours are in a fixed order that depends on the
 /// input alone.
 #[derive(Clone, Debug)]
@@ -13,6 +17,8 @@ pub struct Polytope<const N: usize> {
     /// Vertices joined to each vertex by an edge, ascending.
     vertex_neighbours: Vec<Vec<u32>>,
     bounding_radius: f64,
+    /// A vertex farthest along −axis and along +axis, for each axis in turn: where the climb to a support begins.
+    axis_supports: Vec<u32>,
 }
 
 /// One facet (face of dimension `N − 1`): the polytope lies where normal·p ≤ offset.
@@ -29,6 +35,98 @@ pub struct Facet<const N: usize> {
 }
 
 impl<const N: usize> Polytope<N> {
+    /// The convex hull of points in any order; duplicates and points that are not vertices are welcome. The vertices
+    /// keep the order and the exact coordinates of the points.
+    ///
+    /// Points closer than 1e-10 of half the extent to a facet's hyperplane lie in it; see
+    /// [`convex_hull_within`](hull::convex_hull_within) for coordinates of lower precision.
+    ///
+    /// # Errors
+    /// `BadCount` for fewer than `N + 1` points, or more than the limits in [`tolerances`](crate::tolerances); `Flat`
+    /// if they do not span the space; `BadNumber` if one is not finite, or if they leave no clear hull.
+    ///
+    /// ```
+    /// use hyperbody_geometry::Polytope;
+    /// use hyperbody_math::Vector;
+    /// let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.5, 0.5]].map(Vector);
+    /// let polytope = Polytope::from_points(&square)?;
+    /// assert_eq!((polytope.vertices().len(), polytope.facets().len()), (4, 4));
+    /// # Ok::<(), hyperbody_geometry::GeometryError>(())
+    /// ```
+    pub fn from_points(points: &[Vector<N>]) -> Result<Self> {
+        hull::convex_hull(points).map(|(polytope, _)| polytope)
+    }
+
+    /// Takes vertices and facets that are known to fit together.
+    pub(crate) fn from_parts(vertices: Vec<Vector<N>>, facets: Vec<Facet<N>>) -> Self {
+        let lists: Vec<&[u32]> = facets.iter().map(|facet| facet.vertices.as_slice()).collect();
+        let vertex_facets = incidence::transposed(&lists, vertices.len());
+        let vertex_neighbours = incidence::vertex_neighbours(&facets, &vertex_facets);
+        let mut polytope = Self {
+            vertices,
+            facets,
+            vertex_facets,
+            vertex_neighbours,
+            bounding_radius: 0.0,
+            axis_supports: Vec::new(),
+        };
+        polytope.update_bounds();
+        polytope
+    }
+
+    /// Sets what depends on the positions of the vertices alone.
+    fn update_bounds(&mut self) {
+        self.bounding_radius = self.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        self.axis_supports =
+            (0..2 * N).map(|i| self.scan(Vector::unit(i / 2) * if i % 2 == 0 { -1.0 } else { 1.0 }) as u32).collect();
+    }
+
+    /// This polytope, made from scaled points, at its true place: the vertices are the given points themselves.
+    pub(crate) fn placed(mut self, points: &[Vector<N>], used: &[u32], centre: Vector<N>, extent: f64) -> Self {
+        self.vertices = used.iter().map(|&index| points[index as usize]).collect();
+        for facet in &mut self.facets {
+            facet.offset = facet.offset * extent + facet.normal.dot(centre);
+        }
+        self.update_bounds();
+        self
+    }
+
+    /// The polytope moved by `offset`.
+    #[must_use]
+    pub fn translated(&self, offset: Vector<N>) -> Self {
+        let mut moved = self.clone();
+        for vertex in &mut moved.vertices {
+            *vertex += offset;
+        }
+        for facet in &mut moved.facets {
+            facet.offset += facet.normal.dot(offset);
+        }
+        moved.update_bounds();
+        moved
+    }
+
+    /// The polytope with every coordinate multiplied by `factor`.
+    ///
+    /// # Errors
+    /// If the factor is not finite or not positive.
+    pub fn scaled(&self, factor: f64) -> Result<Self> {
+        if !(factor > 0.0 && factor.is_finite()) {
+            return Err(GeometryError::new(
+                BadNumber,
+                format!("a polytope is scaled by {factor}: the factor must be positive and finite"),
+            ));
+        }
+        let mut scaled = self.clone();
+        for vertex in &mut scaled.vertices {
+            *vertex *= factor;
+        }
+        for facet in &mut scaled.facets {
+            facet.offset *= factor;
+        }
+        scaled.update_bounds();
+        Ok(scaled)
+    }
+
     /// The vertices.
     #[must_use]
     pub fn vertices(&self) -> &[Vector<N>] {
@@ -59,9 +157,50 @@ impl<const N: usize> Polytope<N> {
         self.bounding_radius
     }
 
-    /// Index of a vertex that lies farthest in `direction`; the smallest of equals.
+    /// Index of a vertex that lies farthest in `direction` (any length). The same direction always gives the same
+    /// vertex: of equals the smallest where the polytope is small enough to look at all of them.
     #[must_use]
     pub fn support_vertex(&self, direction: Vector<N>) -> usize {
+        if self.vertices.len() < MIN_CLIMBING_VERTICES {
+            return self.scan(direction);
+        }
+        let axis = direction.axis_of_max_abs();
+        let start = self.axis_supports[2 * axis + usize::from(direction[axis] > 0.0)];
+        self.climb(start as usize, direction)
+    }
+
+    /// Index of a vertex that lies farthest in `direction`, searched from vertex `start`, such as the answer to a
+    /// direction close to this one. Of equals it may find another one than [`Polytope::support_vertex`].
+    ///
+    /// # Panics
+    /// If there is no vertex `start`.
+    #[must_use]
+    pub fn support_vertex_from(&self, start: usize, direction: Vector<N>) -> usize {
+        self.climb(start, direction)
+    }
+
+    /// Goes along edges to the best neighbour for as long as that is farther. A polytope is convex: where no edge
+    /// leads farther, nothing does. Each step gains, so no vertex is seen twice.
+    fn climb(&self, start: usize, direction: Vector<N>) -> usize {
+        let mut best = start;
+        let mut farthest = self.vertices[start].dot(direction);
+        for _ in 0..self.vertices.len() {
+            let current = best;
+            for &neighbour in &self.vertex_neighbours[current] {
+                let distance = self.vertices[neighbour as usize].dot(direction);
+                if distance > farthest {
+                    best = neighbour as usize;
+                    farthest = distance;
+                }
+            }
+            if best == current {
+                break;
+            }
+        }
+        best
+    }
+
+    fn scan(&self, direction: Vector<N>) -> usize {
         let mut best = 0;
         let mut farthest = f64::NEG_INFINITY;
         for (index, vertex) in self.vertices.iter().enumerate() {

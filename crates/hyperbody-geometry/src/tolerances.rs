@@ -10,3 +10,29 @@ pub const MAX_LENGTH: f64 = 1e6;
 
 /// Most parts of a compound. Every part is a leaf of the broad phase; beyond this the input is a mistake.
 pub const MAX_PARTS: usize = 1 << 20;
+
+/// Points closer than this to a hyperplane lie in it when a hull is made, relative to the half-width of the point set.
+/// Coordinates in closed form are off by 1e-16 and planes through them by 1e-14 or so; a feature that is meant is
+/// larger than 1e-10 of the body.
+pub const HULL_TOLERANCE: f64 = 1e-10;
+
+/// Tolerances tried, each this many times the one before, when rounding makes the facets contradict each other.
+pub(crate) const HULL_TOLERANCE_GROWTH: f64 = 10.0;
+
+/// How often a hull is tried. The last tolerance is 1e-7, the precision of coordinates stored with seven digits.
+pub(crate) const HULL_ATTEMPTS: u32 = 4;
+
+/// Points that lie this close to a flat of lower dimension have no hull, relative to the half-width of the point set:
+/// thinner bodies could not be told from the errors of their own facets.
+pub const FLATNESS: f64 = 1e-8;
+
+/// Most points of a hull: their indices and distances must fit into memory without a second thought.
+pub const MAX_HULL_POINTS: usize = 1 << 22;
+
+/// Most simplices a hull may have at any time. In six dimensions the facets of a hull can outnumber its points by the
+/// square; this bounds them to about 100 MB.
+pub const MAX_HULL_SIMPLICES: usize = 1 << 19;
+
+/// From this number of vertices on, the support of a polytope is found by climbing along edges; below it, looking at
+/// all vertices is faster.
+pub(crate) const MIN_CLIMBING_VERTICES: usize = 48;
