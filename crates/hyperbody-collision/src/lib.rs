@@ -1,1 +1,28 @@
-//! See ARCHITECTURE.md.
+//! Collision detection in `N` dimensions, `N` = 2..=6, written once for every `N`.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`tree`] | [`DynamicTree`]: which axis-aligned boxes overlap |
+//! | [`narrow`] | [`collide`]: the contacts of one pair of pieces; picks the method for the pair |
+//! | [`manifold`] | [`Manifold`]: a normal and the few points that hold a contact |
+//! | [`box_sat`] | separating axes of two boxes, all C(2N, N−1) of them |
+//! | [`limits`] | every tolerance and every bound on a loop, each with its reason |
+//!
+//! Every shape is a polyhedral core rounded by a radius ([`hyperbody_geometry::Convex`]), or a half-space. Touching,
+//! parallel, nested, coincident and nearly flat inputs are ordinary inputs; poses that are not finite give no contact.
+
+pub mod box_sat;
+mod clip;
+mod faces;
+mod half_space;
+pub mod limits;
+pub mod manifold;
+pub mod narrow;
+mod patch;
+mod reduce;
+mod round;
+pub mod tree;
+
+pub use manifold::{ContactPoint, MAX_POINTS, Manifold, max_points};
+pub use narrow::{PairCache, Scratch, collide};
+pub use tree::DynamicTree;

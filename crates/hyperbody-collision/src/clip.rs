@@ -1,0 +1,149 @@
+//! Cutting a convex patch by half-spaces, in any dimension.
+//!
+//! The patch is kept as its vertices, each with the set of constraints that it makes tight. One cut is a step of the
+//! double-description method (Motzkin, Raiffa, Thompson, Thrall 1953): vertices outside go, and every edge from inside
+//! to outside leaves a new vertex. Two vertices of a patch of dimension d can be joined by an edge only if they share
+//! at least d − 1 tight constraints; that they do is taken for an edge. Where vertices are tight on more constraints
+//! than d (the test is exact up to d = 3) this may add a point that is no corner but lies in the patch: harmless.
+
+use hyperbody_math::Vector;
+
+/// Largest number of vertices of a patch. Two 5-cubes meet in fewer than 300; new vertices beyond the limit are left
+/// out, which makes the patch smaller.
+const MAX_PATCH_VERTICES: usize = 1024;
+
+/// A vertex and the constraints it makes tight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClipVertex<const N: usize, const W: usize> {
+    pub(crate) point: Vector<N>,
+    tight: [u64; W],
+}
+
+/// A patch being cut; room for 64·W constraints.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Clipper<const N: usize, const W: usize> {
+    pub(crate) vertices: Vec<ClipVertex<N, W>>,
+    distances: Vec<f64>,
+    /// What each bit stands for: a facet of the patch's own shape, or, from `own` on, of the cutting shape.
+    features: Vec<u32>,
+    own: usize,
+    dimension: usize,
+}
+
+impl<const N: usize, const W: usize> Clipper<N, W> {
+    /// Starts a patch of the given dimension whose own constraints are the given facets of its shape.
+    pub(crate) fn begin(&mut self, dimension: usize, own: impl IntoIterator<Item = u32>) {
+        self.vertices.clear();
+        self.features.clear();
+        self.features.extend(own);
+        self.own = self.features.len();
+        self.dimension = dimension;
+    }
+
+    /// Adds a vertex that makes the given own constraints tight.
+    pub(crate) fn push(&mut self, point: Vector<N>, bits: impl IntoIterator<Item = usize>) {
+        let mut tight = [0; W];
+        for bit in bits {
+            set(&mut tight, bit);
+        }
+        self.vertices.push(ClipVertex { point, tight });
+    }
+
+    /// Keeps what lies on the side normal·p ≤ offset, for a unit normal; points within `tolerance` of the plane count
+    /// as on it. `feature` is the facet of the cutting shape that the plane comes from. `false` if nothing is left.
+    pub(crate) fn cut(&mut self, normal: Vector<N>, offset: f64, tolerance: f64, feature: u32) -> bool {
+        self.distances.clear();
+        self.distances.extend(self.vertices.iter().map(|vertex| vertex.point.dot(normal) - offset));
+        // A plane with nothing outside bounds nothing new; leaving it out keeps the vertices simple.
+        if self.distances.iter().all(|&distance| distance <= tolerance) {
+            return !self.vertices.is_empty();
+        }
+        let bit = self.features.len();
+        if bit >= 64 * W {
+            self.vertices.clear();
+            return false;
+        }
+        self.features.push(feature);
+        let before = self.vertices.len();
+        for outside in 0..before {
+            if self.distances[outside] > tolerance {
+                self.cross_edges_of(outside, before, tolerance, bit);
+            }
+        }
+        self.drop_outside(before, tolerance, bit);
+        !self.vertices.is_empty()
+    }
+
+    /// Adds the points where the edges from one outside vertex to the inside cross the plane.
+    fn cross_edges_of(&mut self, outside: usize, before: usize, tolerance: f64, bit: usize) {
+        let far = self.vertices[outside];
+        let far_distance = self.distances[outside];
+        for inside in 0..before {
+            let near_distance = self.distances[inside];
+            if near_distance >= -tolerance || self.vertices.len() >= MAX_PATCH_VERTICES {
+                continue;
+            }
+            let near = self.vertices[inside];
+            let mut shared = [0; W];
+            let mut count = 0;
+            for word in 0..W {
+                shared[word] = near.tight[word] & far.tight[word];
+                count += shared[word].count_ones() as usize;
+            }
+            if count + 1 < self.dimension {
+                continue;
+            }
+            let t = near_distance / (near_distance - far_distance);
+            set(&mut shared, bit);
+            self.vertices.push(ClipVertex { point: near.point.lerp(far.point, t), tight: shared });
+        }
+    }
+
+    /// Removes the outside ones of the first `before` vertices and marks those on the plane.
+    fn drop_outside(&mut self, before: usize, tolerance: f64, bit: usize) {
+        let mut kept = 0;
+        for index in 0..self.vertices.len() {
+            if index < before {
+                if self.distances[index] > tolerance {
+                    continue;
+                }
+                if self.distances[index] >= -tolerance {
+                    set(&mut self.vertices[index].tight, bit);
+                }
+            }
+            self.vertices[kept] = self.vertices[index];
+            kept += 1;
+        }
+        self.vertices.truncate(kept);
+    }
+
+    /// A number for the set of features that meet at a vertex: the facets of the patch's own shape and those of the
+    /// cutting shape, each marked by the given parity. It does not depend on the order of the cuts.
+    pub(crate) fn feature_id(&self, vertex: usize, own_parity: u32) -> u32 {
+        let mut id = 0_u32;
+        for word in 0..W {
+            let mut bits = self.vertices[vertex].tight[word];
+            // Clears one bit per turn.
+            while bits != 0 {
+                let bit = 64 * word + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                let parity = if bit < self.own { own_parity } else { 1 - own_parity };
+                id = id.wrapping_add(feature_hash(self.features[bit], parity));
+            }
+        }
+        id
+    }
+}
+
+/// A well-mixed number for facet `feature` of shape a (`parity` 0) or b (1): the finaliser of MurmurHash3 (Appleby).
+pub(crate) fn feature_hash(feature: u32, parity: u32) -> u32 {
+    let mut hash = (feature << 1 | parity).wrapping_add(0x9e37_79b9);
+    hash = (hash ^ hash >> 16).wrapping_mul(0x85eb_ca6b);
+    hash = (hash ^ hash >> 13).wrapping_mul(0xc2b2_ae35);
+    hash ^ hash >> 16
+}
+
+#[inline]
+fn set<const W: usize>(words: &mut [u64; W], bit: usize) {
+    words[bit / 64] |= 1 << (bit % 64);
+}

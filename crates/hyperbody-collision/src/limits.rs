@@ -1,0 +1,40 @@
+//! Every tolerance and every bound on a loop of this crate, each with its reason.
+//!
+//! Tolerances are pure numbers; where they compare lengths they are multiplied by the size of the shapes at hand, so
+//! that a scene in millimetres behaves as one in kilometres.
+
+/// Squared length, relative to that of its factors, below which the product of two directions counts as none: the
+/// directions are parallel to 1e-7, and what is left has at least nine correct digits above it.
+pub const PARALLEL_SQ: f64 = 1e-14;
+
+/// How much shallower, in parts of the depth, a mixed axis (edge against edge and its kin) has to be than the best
+/// facet normal to be preferred. Near-parallel edges span axes close to a facet normal that change abruptly from step
+/// to step; a facet gives a patch that stays. The reported depth is at most this much above the least one.
+pub const FACET_PREFERENCE_RELATIVE: f64 = 0.05;
+
+/// The absolute part of the same preference, in parts of the smaller shape's least half-extent: keeps the facet when
+/// the depth is near zero and a relative comparison means nothing.
+pub const FACET_PREFERENCE_ABSOLUTE: f64 = 1e-3;
+
+/// How much better, in the same unit, an axis has to be than the one that won in the previous step.
+pub const HYSTERESIS: f64 = 5e-4;
+
+/// A direction whose cosine with a facet's normal falls short of one by no more than this *is* that normal: an angle
+/// of 1e-6, which moves no point of a shape by more than a millionth of its size.
+pub const SNAP_COSINE_DEFECT: f64 = 5e-13;
+
+/// How much better aligned with the normal b's facet has to be than a's to serve as the reference, so that the choice
+/// does not flicker between two parallel facets.
+pub const REFERENCE_PREFERENCE: f64 = 1e-3;
+
+/// Distance from a clipping plane, in parts of the size of the shapes, within which a vertex lies on it: a few
+/// hundred roundings of a coordinate.
+pub const ON_PLANE: f64 = 1e-12;
+
+/// Separation beyond the least one, in parts of the size of the shapes, up to which a point of a patch is as deep as
+/// the deepest when points are chosen.
+pub const EQUAL_DEPTH: f64 = 1e-4;
+
+/// How much larger a distance has to be (as a factor on its square) to displace a point that was chosen in the
+/// previous step.
+pub const COHERENCE_GAIN: f64 = 1.1;

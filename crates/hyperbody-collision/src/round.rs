@@ -1,0 +1,158 @@
+//! Closed forms: balls and capsules against each other, balls against boxes.
+
+use hyperbody_geometry::Core;
+use hyperbody_math::Vector;
+
+/// Closest points of two cores and the direction between them, in any one frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Witness<const N: usize> {
+    /// Unit, from a to b.
+    pub(crate) normal: Vector<N>,
+    pub(crate) on_a: Vector<N>,
+    pub(crate) on_b: Vector<N>,
+    /// Along the normal; negative if the cores overlap.
+    pub(crate) separation: f64,
+}
+
+/// A direction to use where geometry leaves it open: `wish` if it is one, or else the first axis.
+fn any_direction<const N: usize>(wish: Vector<N>) -> Vector<N> {
+    wish.try_normalize().unwrap_or_else(|| Vector::unit(0))
+}
+
+/// Two points. `wish` is the direction for coincident ones.
+pub(crate) fn points<const N: usize>(on_a: Vector<N>, on_b: Vector<N>, wish: Vector<N>) -> Witness<N> {
+    let offset = on_b - on_a;
+    match offset.try_normalize() {
+        Some(normal) => Witness { normal, on_a, on_b, separation: offset.dot(normal) },
+        None => Witness { normal: any_direction(wish), on_a, on_b, separation: 0.0 },
+    }
+}
+
+/// The box |x_i| ≤ h_i (a) and a point (b), in the frame of the box: the clamped point, or from inside the facet of
+/// least depth.
+pub(crate) fn box_and_point<const N: usize>(half_extents: &Vector<N>, point: Vector<N>) -> Witness<N> {
+    let clamped = point.min(*half_extents).max(-*half_extents);
+    if let Some(normal) = (point - clamped).try_normalize() {
+        return Witness { normal, on_a: clamped, on_b: point, separation: (point - clamped).dot(normal) };
+    }
+    let mut along = 0;
+    for axis in 1..N {
+        if half_extents[axis] - point[axis].abs() < half_extents[along] - point[along].abs() {
+            along = axis;
+        }
+    }
+    let sign = if point[along] < 0.0 { -1.0 } else { 1.0 };
+    let mut on_a = point;
+    on_a[along] = sign * half_extents[along];
+    let separation = point[along].abs() - half_extents[along];
+    Witness { normal: Vector::unit(along) * sign, on_a, on_b: point, separation }
+}
+
+/// A segment by its middle and half its extent; a point has none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Segment<const N: usize> {
+    pub(crate) middle: Vector<N>,
+    pub(crate) half: Vector<N>,
+}
+
+impl<const N: usize> Segment<N> {
+    fn at(&self, parameter: f64) -> Vector<N> {
+        self.middle + self.half * parameter
+    }
+
+    /// The parameter in [−1, 1] of the point closest to `point`.
+    fn closest(&self, point: Vector<N>) -> f64 {
+        let length_sq = self.half.norm_sq();
+        if length_sq > 0.0 { ((point - self.middle).dot(self.half) / length_sq).clamp(-1.0, 1.0) } else { 0.0 }
+    }
+}
+
+/// Two segments: closest points by the quadratic in both parameters, clamped (Ericson 2005, §5.1.9). `wish` is the
+/// direction where segments cross.
+pub(crate) fn segments<const N: usize>(a: &Segment<N>, b: &Segment<N>, wish: Vector<N>) -> Witness<N> {
+    let (aa, bb, ab) = (a.half.norm_sq(), b.half.norm_sq(), a.half.dot(b.half));
+    let offset = b.middle - a.middle;
+    let determinant = aa * bb - ab * ab;
+    let mut s = 0.0;
+    if determinant > crate::limits::PARALLEL_SQ * aa * bb {
+        s = ((bb * offset.dot(a.half) - ab * offset.dot(b.half)) / determinant).clamp(-1.0, 1.0);
+    }
+    let mut t = b.closest(a.at(s));
+    s = a.closest(b.at(t));
+    // A second turn removes what is left of rounding in the determinant.
+    t = b.closest(a.at(s));
+    let witness = points(a.at(s), b.at(t), wish);
+    let size = aa.sqrt() + bb.sqrt();
+    if witness.separation > CROSSING * size || size == 0.0 { witness } else { crossing(a, b, &witness, wish) }
+}
+
+/// Distance of two segments, in parts of their length, below which they cross and the direction between the closest
+/// points is noise.
+const CROSSING: f64 = 1e-10;
+
+/// Segments that cross: separated along the perpendicular of both with the least overlap. From three dimensions on
+/// there is one along which they do not overlap at all.
+fn crossing<const N: usize>(a: &Segment<N>, b: &Segment<N>, witness: &Witness<N>, wish: Vector<N>) -> Witness<N> {
+    let mut best: Option<(Vector<N>, f64)> = None;
+    let mut consider = |direction: Vector<N>| {
+        let along = (b.middle - a.middle).dot(direction);
+        let normal = if along < 0.0 || (along == 0.0 && wish.dot(direction) < 0.0) { -direction } else { direction };
+        let separation = along.abs() - a.half.dot(normal).abs() - b.half.dot(normal).abs();
+        if best.is_none_or(|(_, most)| separation > most) {
+            best = Some((normal, separation));
+        }
+    };
+    let (first, second) = (a.half.normalize_or_zero(), b.half.normalize_or_zero());
+    let second_part = (second - first * first.dot(second)).normalize_or_zero();
+    let first_part = (first - second * second.dot(first)).normalize_or_zero();
+    // Perpendicular to one segment inside their common plane, for the plane; perpendicular to both beyond it.
+    for direction in [second_part, first_part] {
+        if direction != Vector::ZERO {
+            consider(direction);
+        }
+    }
+    for axis in 0..=N {
+        let trial = if axis == N { wish } else { Vector::unit(axis) };
+        let in_one = trial - first * first.dot(trial);
+        let rest = in_one - second_part * second_part.dot(in_one);
+        if rest.norm() > 1e-3 {
+            consider(rest.normalize_or_zero());
+        }
+    }
+    let Some((normal, separation)) = best else { return *witness };
+    // The deepest points along the normal that lie opposite each other are the crossing point itself, moved apart.
+    let middle = (witness.on_a + witness.on_b) * 0.5;
+    let apart = normal * (0.5 * separation);
+    Witness { normal, on_a: middle - apart, on_b: middle + apart, separation }
+}
+
+/// The parameters on segment a between which the two segments run side by side, or `None` unless they are parallel to
+/// within about ten degrees and do so over some length.
+pub(crate) fn side_by_side<const N: usize>(a: &Segment<N>, b: &Segment<N>) -> Option<[f64; 2]> {
+    let (aa, bb, ab) = (a.half.norm_sq(), b.half.norm_sq(), a.half.dot(b.half));
+    if !(aa * bb > 0.0 && aa * bb - ab * ab <= 0.03 * aa * bb) {
+        return None;
+    }
+    let middle = (b.middle - a.middle).dot(a.half) / aa;
+    let reach = ab.abs() / aa;
+    let (low, high) = ((middle - reach).max(-1.0), (middle + reach).min(1.0));
+    (high - low > 1e-6).then_some([low, high])
+}
+
+/// The two contact positions of near-parallel segments: for each end of the common stretch the point on a and the
+/// point on b straight across, in the order of a's parameter.
+pub(crate) fn ends<const N: usize>(a: &Segment<N>, b: &Segment<N>, stretch: [f64; 2]) -> [(Vector<N>, Vector<N>); 2] {
+    stretch.map(|parameter| {
+        let on_a = a.at(parameter);
+        (on_a, b.at(b.closest(on_a)))
+    })
+}
+
+/// The segment of a core that is a point or a segment.
+pub(crate) fn as_segment<const N: usize>(core: &Core<N>) -> Option<Vector<N>> {
+    match core {
+        Core::Point => Some(Vector::ZERO),
+        Core::Segment { half } => Some(*half),
+        Core::Box { .. } | Core::Polytope(_) => None,
+    }
+}
