@@ -8,6 +8,7 @@
 //! | [`bivector`] | oriented planes: angular velocity, angular momentum, torque |
 //! | [`givens`] | turns in one coordinate plane |
 //! | [`rotation`] | orthogonal matrices of determinant one |
+//! | [`rotor`] | rotations as even multivectors: 8 numbers in 4D |
 //! | [`pose`] | a rotation followed by a translation |
 //! | [`planes`] | the order of the coordinate planes and the names of the axes |
 //! | [`scalar`] | the only door to transcendental functions, the same bits on every platform |
@@ -20,8 +21,10 @@ pub mod eigen;
 pub mod givens;
 pub mod matrix;
 pub mod planes;
+mod polar;
 pub mod pose;
 pub mod rotation;
+pub mod rotor;
 pub mod scalar;
 pub mod vector;
 
@@ -31,4 +34,5 @@ pub use givens::Givens;
 pub use matrix::Matrix;
 pub use pose::Pose;
 pub use rotation::Rotation;
+pub use rotor::{Dim, EvenAlgebra, Rotor, RotorError, RotorErrorKind};
 pub use vector::Vector;

@@ -5,7 +5,7 @@
 
 use std::ops::Mul;
 
-use crate::{Bivector, Givens, Matrix, Vector, scalar};
+use crate::{Bivector, Givens, Matrix, Vector, polar, scalar};
 
 /// A rotation of `N`-dimensional space. Angles in radians; a positive angle in plane (i, j) turns axis i towards j.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +50,14 @@ impl<const N: usize> Rotation<N> {
             rotation.reorthonormalize();
         }
         Some(rotation)
+    }
+
+    /// The rotation nearest to a matrix in the sum of squares of the entries, however far away and of whatever scale: for
+    /// rotations that a drag, a fit or an old file has worn down. `None` if an entry is not finite or several rotations
+    /// are equally near, as for a reflection, a matrix that flattens two directions, or zero.
+    #[must_use]
+    pub fn nearest(m: &Matrix<N>) -> Option<Self> {
+        polar::nearest_rotation(m)
     }
 
     /// Trusts the caller that `m` is a rotation to rounding.

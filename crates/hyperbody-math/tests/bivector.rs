@@ -6,6 +6,10 @@ use common::dense::Dense;
 use common::{Random, assert_within};
 use hyperbody_math::{Bivector, Rotation, Vector};
 
+mod every_dimension {
+    crate::common::in_every_dimension!(products_match_the_oracle identities sense_of_rotation);
+}
+
 /// The oracle itself: e_i² = 1, e_i e_j = −e_j e_i, and products associate.
 #[test]
 fn the_oracle_is_a_clifford_algebra() {
@@ -75,19 +79,4 @@ fn sense_of_rotation<const N: usize>() {
             assert_within((*exp.matrix() - *quarter.matrix()).max_abs(), 1e-15, "exp");
         }
     }
-}
-
-fn check<const N: usize>() {
-    products_match_the_oracle::<N>();
-    identities::<N>();
-    sense_of_rotation::<N>();
-}
-
-#[test]
-fn bivectors_in_every_dimension() {
-    check::<2>();
-    check::<3>();
-    check::<4>();
-    check::<5>();
-    check::<6>();
 }

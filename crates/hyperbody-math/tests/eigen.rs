@@ -5,6 +5,10 @@ mod common;
 use common::{Random, assert_within};
 use hyperbody_math::{Matrix, Rotation, Vector, symmetric_eigen};
 
+mod every_dimension {
+    crate::common::in_every_dimension!(random_matrices degenerate_matrices diagonal_is_exact any_scale);
+}
+
 /// Checks M = R diag(λ) Rᵀ, the order, the orthogonality and the signs; `scale` is the largest |entry|.
 fn check_decomposition<const N: usize>(m: &Matrix<N>) {
     let (values, frame) = symmetric_eigen(m);
@@ -87,22 +91,6 @@ fn any_scale<const N: usize>() {
     bad[0][1] = f64::NAN;
     let (values, frame) = symmetric_eigen(&bad);
     assert!(values.iter().all(f64::is_nan) && frame == Rotation::IDENTITY);
-}
-
-fn check<const N: usize>() {
-    random_matrices::<N>();
-    degenerate_matrices::<N>();
-    diagonal_is_exact::<N>();
-    any_scale::<N>();
-}
-
-#[test]
-fn symmetric_matrices_are_diagonalised() {
-    check::<2>();
-    check::<3>();
-    check::<4>();
-    check::<5>();
-    check::<6>();
 }
 
 /// The second difference matrix has eigenvalues 2 − 2 cos(kπ/(n+1)).

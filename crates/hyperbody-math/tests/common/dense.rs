@@ -103,7 +103,7 @@ impl<const N: usize> Dense<N> {
     }
 
     pub fn max_abs(&self) -> f64 {
-        self.0.iter().fold(0.0, |largest, c| if c.is_nan() { f64::NAN } else { f64::max(largest, c.abs()) })
+        self.0.iter().fold(0.0, |largest, c| if c.is_nan() || c.abs() > largest { c.abs() } else { largest })
     }
 
     /// The exponential by its power series, after halving the argument until the series converges fast.

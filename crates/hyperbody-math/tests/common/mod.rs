@@ -4,7 +4,7 @@
 
 pub mod dense;
 
-use hyperbody_math::{Bivector, Matrix, Rotation, Vector, planes};
+use hyperbody_math::{Bivector, Dim, EvenAlgebra, Matrix, Rotation, Rotor, Vector, planes};
 
 pub struct Random(u64);
 
@@ -45,6 +45,15 @@ impl Random {
             Rotation::in_plane(i, j, std::f64::consts::PI * self.signed()) * rotation
         })
     }
+
+    /// A rotor that mixes all axes, of either sign.
+    pub fn rotor<const N: usize>(&mut self) -> Rotor<N>
+    where
+        Dim<N>: EvenAlgebra,
+    {
+        planes::all(N)
+            .fold(Rotor::IDENTITY, |rotor, (i, j)| Rotor::in_plane(i, j, std::f64::consts::TAU * self.signed()) * rotor)
+    }
 }
 
 /// Asserts that a deviation does not exceed its limit; NaN fails.
@@ -52,3 +61,18 @@ impl Random {
 pub fn assert_within(deviation: f64, limit: f64, what: &str) {
     assert!(deviation <= limit, "{what}: deviation {deviation:e} exceeds {limit:e}");
 }
+
+/// Makes one test for each of the parent module's checks, run for 2 to 6 dimensions.
+macro_rules! in_every_dimension {
+    ($($name:ident)*) => {$(
+        #[test]
+        fn $name() {
+            super::$name::<2>();
+            super::$name::<3>();
+            super::$name::<4>();
+            super::$name::<5>();
+            super::$name::<6>();
+        }
+    )*};
+}
+pub(crate) use in_every_dimension;
