@@ -5,8 +5,11 @@
 //! | [`shape`] | [`Shape`]: everything a body can be made of |
 //! | [`convex`] | [`Convex`]: a core rounded by a radius, the form in which collision sees every convex shape |
 //! | [`polytope`] | [`Polytope`]: vertices, facets and their incidences |
+//! | [`face_lattice`] | [`FaceLattice`]: the faces of a polytope of all ranks |
 //! | [`hull`] | the convex hull of points |
+//! | [`regular`] | the regular polytopes by name |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
+//! | [`volume`] | volumes of balls |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
 //! | [`tolerances`] | every limit and tolerance, with its reason |
 //! | [`error`] | [`GeometryError`] |
@@ -14,16 +17,20 @@
 pub mod aabb;
 pub mod convex;
 pub mod error;
+pub mod face_lattice;
 pub mod hull;
 mod incidence;
 pub mod mass;
 pub mod polytope;
+pub mod regular;
 pub mod shape;
 pub mod tolerances;
+pub mod volume;
 
 pub use aabb::Aabb;
 pub use convex::{Convex, Core};
 pub use error::{GeometryError, GeometryErrorKind, Result};
+pub use face_lattice::{Face, FaceLattice};
 pub use mass::MassProperties;
 pub use polytope::Polytope;
 pub use shape::{Piece, Shape};

@@ -1,10 +1,10 @@
 //! Convex polytopes: vertices, facets, and who touches whom.
 
-use hyperbody_math::Vector;
+use hyperbody_math::{Matrix, Vector};
 
 use crate::error::GeometryErrorKind::BadNumber;
 use crate::tolerances::MIN_CLIMBING_VERTICES;
-use crate::{GeometryError, Result, hull, incidence};
+use crate::{FaceLattice, GeometryError, Result, hull, incidence};
 
 /// A convex polytope with non-empty interior. Vertices, facets and neighbours are in a fixed order that depends on the
 /// input alone.
@@ -47,7 +47,7 @@ impl<const N: usize> Polytope<N> {
     ///
     /// ```
     /// use hyperbody_geometry::Polytope;
-    /// use hyperbody_math::Vector;
+    /// use hyperbody_math::{Matrix, Vector};
     /// let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.5, 0.5]].map(Vector);
     /// let polytope = Polytope::from_points(&square)?;
     /// assert_eq!((polytope.vertices().len(), polytope.facets().len()), (4, 4));
@@ -89,6 +89,42 @@ impl<const N: usize> Polytope<N> {
         }
         self.update_bounds();
         self
+    }
+
+    /// Mean of the vertices: a point of the interior.
+    #[must_use]
+    pub fn vertex_mean(&self) -> Vector<N> {
+        self.vertices.iter().fold(Vector::ZERO, |sum, &v| sum + v) / self.vertices.len() as f64
+    }
+
+    /// All faces, from vertices to facets.
+    #[must_use]
+    pub fn face_lattice(&self) -> FaceLattice {
+        FaceLattice::new(self)
+    }
+
+    /// Simplices that fill the facets, oriented outward: with o inside, det[v_1 − o, …, v_N − o] is not negative.
+    #[must_use]
+    pub fn boundary_simplices(&self) -> Vec<[u32; N]> {
+        let mut simplices: Vec<[u32; N]> = Vec::new();
+        let simplicial = self.facets.iter().all(|facet| facet.vertices.len() == N);
+        if simplicial {
+            simplices.extend(self.facets.iter().filter_map(|facet| <[u32; N]>::try_from(&facet.vertices[..]).ok()));
+        } else {
+            let lattice = self.face_lattice();
+            for facet in 0..self.facets.len() {
+                let filling = lattice.triangulation(N - 1, facet);
+                simplices.extend(filling.iter().filter_map(|simplex| <[u32; N]>::try_from(&simplex[..]).ok()));
+            }
+        }
+        let inside = self.vertex_mean();
+        for simplex in &mut simplices {
+            let corners = simplex.map(|v| self.vertices[v as usize] - inside);
+            if Matrix::from_columns(corners).determinant() < 0.0 {
+                simplex.swap(0, 1);
+            }
+        }
+        simplices
     }
 
     /// The polytope moved by `offset`.

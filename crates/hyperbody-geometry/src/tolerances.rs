@@ -8,6 +8,13 @@ pub const MIN_LENGTH: f64 = 1e-6;
 /// what contacts of metre-sized bodies need; and (10⁶)⁸ is far from overflow.
 pub const MAX_LENGTH: f64 = 1e6;
 
+/// Smallest density, in kg/m^N. Bodies of any allowed size then have masses and moments far above underflow, and so have
+/// their inverses below overflow.
+pub const MIN_DENSITY: f64 = 1e-30;
+
+/// Largest density, in kg/m^N, for the same reason; nuclear matter has 1e17 in three dimensions.
+pub const MAX_DENSITY: f64 = 1e30;
+
 /// Most parts of a compound. Every part is a leaf of the broad phase; beyond this the input is a mistake.
 pub const MAX_PARTS: usize = 1 << 20;
 
@@ -36,3 +43,6 @@ pub const MAX_HULL_SIMPLICES: usize = 1 << 19;
 /// From this number of vertices on, the support of a polytope is found by climbing along edges; below it, looking at
 /// all vertices is faster.
 pub(crate) const MIN_CLIMBING_VERTICES: usize = 48;
+
+/// Most vertices of a regular polygon: with more, its corners would be too close to straight for the hull.
+pub const MAX_POLYGON: usize = 10_000;
