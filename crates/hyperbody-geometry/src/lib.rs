@@ -8,6 +8,7 @@
 //! | [`face_lattice`] | [`FaceLattice`]: the faces of a polytope of all ranks |
 //! | [`hull`] | the convex hull of points |
 //! | [`regular`] | the regular polytopes by name |
+//! | [`off`] | OFF files |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`volume`] | volumes of balls |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
@@ -21,6 +22,7 @@ pub mod face_lattice;
 pub mod hull;
 mod incidence;
 pub mod mass;
+pub mod off;
 pub mod polytope;
 pub mod regular;
 pub mod shape;
@@ -32,5 +34,6 @@ pub use convex::{Convex, Core};
 pub use error::{GeometryError, GeometryErrorKind, Result};
 pub use face_lattice::{Face, FaceLattice};
 pub use mass::MassProperties;
+pub use off::OffFile;
 pub use polytope::Polytope;
 pub use shape::{Piece, Shape};
