@@ -1,1 +1,46 @@
-//! See ARCHITECTURE.md.
+//! Rigid-body worlds in `N` dimensions, `N` = 2..=6, from one source.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`world`] | [`World`]: bodies and joints go in, `step` moves them, results are read |
+//! | [`body`] | what a body is, how it is defined, read and pushed |
+//! | [`joint`] | what ties bodies together |
+//! | [`material`] | friction, restitution, density |
+//! | [`tuning`] | every tunable number, with its reason |
+//! | `step` | the stages of one step, in order |
+//! | `broad_phase`, `pairs`, `narrow_phase` | who may touch whom, and where |
+//! | `islands` | who rests together and falls asleep together |
+//! | `solver` | contacts and joints become impulses |
+//! | `integrate` | impulses and forces become motion |
+//!
+//! Data goes one way through the step; `step.rs` is its list of stages.
+
+pub mod body;
+mod broad_phase;
+pub mod error;
+pub mod free_top;
+mod handle;
+mod hash;
+mod integrate;
+mod islands;
+pub mod joint;
+pub mod material;
+mod measure;
+mod narrow_phase;
+mod pairs;
+mod solver;
+mod step;
+pub mod timings;
+pub mod tuning;
+pub mod world;
+
+pub use body::{BodyDef, BodyKind, BodyMut, BodyRef};
+pub use error::{WorldError, WorldErrorKind};
+pub use handle::{BodyHandle, JointHandle};
+pub use joint::JointDef;
+pub use material::Material;
+pub use measure::Energy;
+pub use narrow_phase::ContactRef;
+pub use timings::StageTimings;
+pub use tuning::Tuning;
+pub use world::{World, WorldDef};

@@ -81,7 +81,8 @@ impl<const N: usize> Shape<N> {
     ///
     /// # Errors
     /// If a half-extent is not a number of metres in [`MIN_LENGTH`]..=[`MAX_LENGTH`].
-    pub fn cuboid(half_extents: Vector<N>) -> Result<Self> {
+    pub fn cuboid(half_extents: impl Into<Vector<N>>) -> Result<Self> {
+        let half_extents = half_extents.into();
         for (axis, half_extent) in half_extents.iter().enumerate() {
             check_length(&format!("half-extent {axis} of a box"), half_extent)?;
         }
@@ -93,7 +94,8 @@ impl<const N: usize> Shape<N> {
     ///
     /// # Errors
     /// If the normal is zero or not finite, or the plane lies farther than [`MAX_LENGTH`] from the origin.
-    pub fn half_space(normal: Vector<N>, offset: f64) -> Result<Self> {
+    pub fn half_space(normal: impl Into<Vector<N>>, offset: f64) -> Result<Self> {
+        let normal = normal.into();
         let Some(unit) = normal.try_normalize() else {
             return Err(bad_number(format!(
                 "the normal of a half-space is {:?}: it must be finite and not zero; give the direction out of the solid, \

@@ -1,0 +1,9 @@
+//! Bodies: how they are defined, what the world keeps of them, how they are read and pushed.
+
+mod access;
+mod def;
+mod state;
+
+pub use access::{BodyMut, BodyRef};
+pub use def::{BodyDef, BodyKind};
+pub(crate) use state::Body;

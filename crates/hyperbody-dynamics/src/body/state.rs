@@ -1,0 +1,249 @@
+//! What the world keeps of a body: the state of the equations of motion, and the constants of its mass.
+//!
+//! The state of rotation is the angular momentum in the world frame, because free motion keeps it; the angular
+//! velocity follows from it and the attitude.
+
+use hyperbody_geometry::{MassProperties, Shape};
+use hyperbody_math::{Bivector, Pose, Rotation, Vector};
+
+use crate::{BodyDef, BodyKind, Material, WorldError, error::WorldErrorKind};
+
+/// Second moments of a body in its principal frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inertia<const N: usize> {
+    /// The attitude of the principal frame in the body's frame.
+    pub(crate) body_from_principal: Rotation<N>,
+    /// J_i, kg·m²; plane (i, j) has the moment J_i + J_j.
+    pub(crate) moments: Vector<N>,
+    /// The moment of every plane where they are all equal (cubes, regular polytopes, balls; everything in 2D): then
+    /// angular momentum and velocity are parallel and the principal frame does not matter.
+    pub(crate) isotropic: Option<f64>,
+}
+
+/// Relative difference of principal moments below which a body counts as isotropic: rounding in second moments of
+/// symmetric shapes is two orders smaller, and 1e-12 moves a spin by 1e-12 of itself a radian.
+const ISOTROPY_TOLERANCE: f64 = 1e-12;
+
+impl<const N: usize> Inertia<N> {
+    pub(crate) fn from_mass_properties(properties: &MassProperties<N>) -> Self {
+        let (moments, body_from_principal) = properties.principal();
+        let largest = moments.max_abs();
+        let equal = (0..N).all(|i| (moments[i] - moments[0]).abs() <= ISOTROPY_TOLERANCE * largest);
+        let isotropic = if N == 2 {
+            Some(moments.iter().sum())
+        } else {
+            equal.then(|| 2.0 * moments.iter().sum::<f64>() / N as f64)
+        };
+        let body_from_principal = if isotropic.is_some() { Rotation::IDENTITY } else { body_from_principal };
+        Self { body_from_principal, moments, isotropic }
+    }
+
+    /// Moment of plane (i, j) of the principal frame, kg·m².
+    #[inline]
+    pub(crate) fn plane_moment(&self, i: usize, j: usize) -> f64 {
+        self.isotropic.unwrap_or(self.moments[i] + self.moments[j])
+    }
+
+    /// Angular momentum of an angular velocity, both in the world frame.
+    pub(crate) fn momentum(&self, world_from_body: &Rotation<N>, angular_velocity: &Bivector<N>) -> Bivector<N> {
+        if let Some(moment) = self.isotropic {
+            return *angular_velocity * moment;
+        }
+        let frame = *world_from_body * self.body_from_principal;
+        let local = frame.inverse_rotate_bivector(angular_velocity);
+        frame.rotate_bivector(&local.scale_planes(|i, j| self.plane_moment(i, j)))
+    }
+
+    /// Angular velocity of an angular momentum, both in the world frame.
+    pub(crate) fn velocity(&self, world_from_body: &Rotation<N>, angular_momentum: &Bivector<N>) -> Bivector<N> {
+        if let Some(moment) = self.isotropic {
+            return *angular_momentum * (1.0 / moment);
+        }
+        let frame = *world_from_body * self.body_from_principal;
+        let local = frame.inverse_rotate_bivector(angular_momentum);
+        frame.rotate_bivector(&local.scale_planes(|i, j| 1.0 / self.plane_moment(i, j)))
+    }
+}
+
+/// A body of a world.
+#[derive(Clone, Debug)]
+pub(crate) struct Body<const N: usize> {
+    pub(crate) kind: BodyKind,
+    pub(crate) shape: Shape<N>,
+    pub(crate) material: Material,
+    /// Slots of its colliders, one for each convex piece.
+    pub(crate) colliders: Vec<u32>,
+    /// Slots of its joints, ascending.
+    pub(crate) joints: Vec<u32>,
+
+    /// kg; zero unless dynamic.
+    pub(crate) mass: f64,
+    /// 1/kg; zero unless dynamic.
+    pub(crate) inverse_mass: f64,
+    /// Of dynamic bodies only.
+    pub(crate) inertia: Inertia<N>,
+    /// Centre of mass in the body's frame, m.
+    pub(crate) centre_in_body: Vector<N>,
+    /// Largest distance of a point of the body from its centre of mass, m: turns spin into speed.
+    pub(crate) radius: f64,
+
+    /// Centre of mass in the world, m.
+    pub(crate) centre: Vector<N>,
+    /// Attitude.
+    pub(crate) rotation: Rotation<N>,
+    /// Of the centre of mass, m/s.
+    pub(crate) velocity: Vector<N>,
+    /// World frame, rad/s. Of dynamic bodies it follows from the momentum and the attitude.
+    pub(crate) angular_velocity: Bivector<N>,
+    /// About the centre of mass, world frame, kg·m²/s. Zero unless dynamic.
+    pub(crate) angular_momentum: Bivector<N>,
+
+    /// Pushes of the user until the end of the next step, world frame, N and N·m.
+    pub(crate) force: Vector<N>,
+    pub(crate) torque: Bivector<N>,
+
+    pub(crate) gravity_scale: f64,
+    pub(crate) linear_damping: f64,
+    pub(crate) angular_damping: f64,
+
+    pub(crate) can_sleep: bool,
+    /// How long it has been slow, s.
+    pub(crate) slow_time: f64,
+    /// The sleeping island that it belongs to.
+    pub(crate) asleep_in: Option<u32>,
+    /// Its state turned non-finite; it stays where it last was, out of the simulation.
+    pub(crate) quarantined: bool,
+    /// Row of this step's solver, 0 for bodies that no impulse moves.
+    pub(crate) solver_index: u32,
+}
+
+/// Centre of mass and inertia for bodies that no impulse moves.
+fn immovable<const N: usize>() -> (f64, Vector<N>, Inertia<N>) {
+    let inertia =
+        Inertia { body_from_principal: Rotation::IDENTITY, moments: Vector::ZERO, isotropic: Some(f64::INFINITY) };
+    (0.0, Vector::ZERO, inertia)
+}
+
+impl<const N: usize> Body<N> {
+    pub(crate) fn new(def: BodyDef<N>) -> Result<Self, WorldError> {
+        def.validate()?;
+        if matches!(def.shape, Shape::HalfSpace { .. }) && def.kind != BodyKind::Static {
+            return Err(WorldError::new(
+                WorldErrorKind::BadShape,
+                "a half-space has no end and no mass: its body must be static",
+            ));
+        }
+        let (mass, centre_in_body, inertia) = match def.kind {
+            BodyKind::Dynamic => {
+                let mut properties = def.shape.mass_properties(def.material.density)?;
+                if let Some(mass) = def.mass {
+                    properties = properties.scaled(mass / properties.mass);
+                }
+                let inertia = Inertia::from_mass_properties(&properties);
+                check_mass(properties.mass, &inertia)?;
+                (properties.mass, properties.centre, inertia)
+            }
+            BodyKind::Static | BodyKind::Kinematic => immovable(),
+        };
+        let velocity = if def.kind == BodyKind::Static { Vector::ZERO } else { def.velocity };
+        let angular_velocity = if def.kind == BodyKind::Static { Bivector::ZERO } else { def.angular_velocity };
+        let angular_momentum = match def.kind {
+            BodyKind::Dynamic => inertia.momentum(&def.rotation, &angular_velocity),
+            BodyKind::Static | BodyKind::Kinematic => Bivector::ZERO,
+        };
+        Ok(Self {
+            kind: def.kind,
+            material: def.material,
+            colliders: Vec::new(),
+            joints: Vec::new(),
+            mass,
+            inverse_mass: if mass > 0.0 { 1.0 / mass } else { 0.0 },
+            inertia,
+            centre_in_body,
+            radius: 0.0,
+            centre: def.position + def.rotation.rotate(centre_in_body),
+            rotation: def.rotation,
+            velocity,
+            angular_velocity,
+            angular_momentum,
+            force: Vector::ZERO,
+            torque: Bivector::ZERO,
+            gravity_scale: def.gravity_scale,
+            linear_damping: def.linear_damping,
+            angular_damping: def.angular_damping,
+            can_sleep: def.can_sleep,
+            slow_time: 0.0,
+            asleep_in: None,
+            quarantined: false,
+            solver_index: 0,
+            shape: def.shape,
+        })
+    }
+
+    /// The pose of the body's frame.
+    #[inline]
+    pub(crate) fn world_from_body(&self) -> Pose<N> {
+        Pose::new(self.rotation, self.centre - self.rotation.rotate(self.centre_in_body))
+    }
+
+    /// Moved by impulses in this step.
+    #[inline]
+    pub(crate) fn is_moving(&self) -> bool {
+        self.kind == BodyKind::Dynamic && self.asleep_in.is_none() && !self.quarantined
+    }
+
+    /// Whether the tree and the pairs have to look at it in this step.
+    #[inline]
+    pub(crate) fn is_awake(&self) -> bool {
+        self.kind != BodyKind::Static && self.asleep_in.is_none() && !self.quarantined
+    }
+
+    /// Comes to a full stop and rests until its island wakes.
+    pub(crate) fn fall_asleep_in(&mut self, island: u32) {
+        self.asleep_in = Some(island);
+        self.velocity = Vector::ZERO;
+        self.angular_velocity = Bivector::ZERO;
+        self.angular_momentum = Bivector::ZERO;
+    }
+
+    pub(crate) fn kinetic_energy(&self) -> f64 {
+        0.5 * (self.mass * self.velocity.norm_sq() + self.angular_momentum.dot(&self.angular_velocity))
+    }
+
+    /// Recomputes the angular velocity from the angular momentum and the attitude.
+    pub(crate) fn refresh_angular_velocity(&mut self) {
+        if self.kind == BodyKind::Dynamic {
+            self.angular_velocity = self.inertia.velocity(&self.rotation, &self.angular_momentum);
+        }
+    }
+
+    pub(crate) fn state_is_finite(&self) -> bool {
+        self.centre.is_finite()
+            && self.velocity.is_finite()
+            && self.rotation.matrix().is_finite()
+            && self.angular_momentum.is_finite()
+            && self.angular_velocity.is_finite()
+    }
+}
+
+/// Masses must survive division in single precision, in which the solver keeps its rows.
+fn check_mass<const N: usize>(mass: f64, inertia: &Inertia<N>) -> Result<(), WorldError> {
+    const RANGE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
+    if !RANGE.contains(&mass) {
+        return Err(WorldError::bad_number(format!(
+            "the mass comes to {mass} kg; it must lie between 1e-15 and 1e15: change the density, the size, or give a mass"
+        )));
+    }
+    for i in 0..N {
+        for j in i + 1..N {
+            let moment = inertia.plane_moment(i, j);
+            if !(moment > 1e-24 && moment < 1e24) {
+                return Err(WorldError::bad_number(format!(
+                    "the moment of inertia of plane {} comes to {moment} kg·m²; it must lie between 1e-24 and 1e24",
+                    hyperbody_math::planes::name(i, j)
+                )));
+            }
+        }
+    }
+    Ok(())
+}

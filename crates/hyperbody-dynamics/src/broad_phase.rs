@@ -1,0 +1,188 @@
+//! Who may touch whom: colliders whose fattened boxes overlap.
+//!
+//! A collider's box in the tree stands off by a margin, so that a slow body stays in it for many steps; only colliders
+//! that left their box are put back and asked for new neighbours.
+
+use hyperbody_collision::{DynamicTree, Manifold, PairCache};
+use hyperbody_geometry::Aabb;
+use hyperbody_geometry::shape::Piece;
+use hyperbody_math::{Bivector, Vector};
+
+use crate::body::Body;
+use crate::handle::Arena;
+use crate::pairs::Pair;
+use crate::world::Collider;
+use crate::{BodyHandle, BodyKind, World};
+
+impl<const N: usize> World<N> {
+    /// Brings boxes, tree and pairs up to date with the bodies' poses.
+    pub(crate) fn update_broad_phase(&mut self) {
+        self.refit_boxes();
+        self.drop_ended_pairs();
+        self.find_new_pairs();
+        for collider in self.colliders.iter_mut().flatten() {
+            collider.moved = false;
+        }
+        if self.tree.should_rebuild() {
+            self.tree.rebuild();
+        }
+    }
+
+    fn refit_boxes(&mut self) {
+        for collider in self.colliders.iter_mut().flatten() {
+            let Some(body) = self.bodies.at(collider.body) else { continue };
+            if !(body.is_awake() || collider.moved) {
+                continue;
+            }
+            collider.world_from_collider = body.world_from_body() * collider.body_from_collider;
+            let (Piece::Convex(convex), Some(proxy)) = (&collider.piece, collider.proxy) else { continue };
+            let tight = convex.aabb(&collider.world_from_collider);
+            if !finite(&tight) {
+                continue;
+            }
+            if !collider.fat_aabb.contains(&tight.grown(self.tuning.speculative_distance)) {
+                let margin = self.tuning.tree_margin.max(self.tuning.speculative_distance);
+                collider.fat_aabb = ahead(&tight, body.velocity * self.dt).grown(margin);
+                collider.moved = true;
+                self.tree.update(proxy, collider.fat_aabb);
+            }
+        }
+    }
+
+    fn drop_ended_pairs(&mut self) {
+        let colliders = &self.colliders;
+        self.pairs.retain(|pair| {
+            let (Some(a), Some(b)) = (&colliders[pair.collider_a as usize], &colliders[pair.collider_b as usize])
+            else {
+                return false;
+            };
+            !(a.moved || b.moved) || boxes_meet(a, b)
+        });
+    }
+
+    fn find_new_pairs(&mut self) {
+        let mut found = std::mem::take(&mut self.new_pairs);
+        found.clear();
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+        for (slot, collider) in self.colliders.iter().enumerate().map(|(s, c)| (s as u32, c)) {
+            let Some(collider) = collider.as_ref().filter(|collider| collider.moved) else { continue };
+            match collider.proxy {
+                Some(_) => {
+                    query(&self.tree, &collider.fat_aabb, &mut self.tree_stack, |other| {
+                        found.push((slot.min(other), slot.max(other)));
+                    });
+                    for &plane in &self.half_spaces {
+                        if self.colliders[plane as usize].as_ref().is_some_and(|plane| boxes_meet(plane, collider)) {
+                            found.push((slot.min(plane), slot.max(plane)));
+                        }
+                    }
+                }
+                None => {
+                    for (other_slot, other) in self.colliders.iter().enumerate() {
+                        let other_slot = other_slot as u32;
+                        if other.as_ref().is_some_and(|other| other.proxy.is_some() && boxes_meet(collider, other)) {
+                            found.push((slot.min(other_slot), slot.max(other_slot)));
+                        }
+                    }
+                }
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        for &(a, b) in &found {
+            if !self.pairs.contains(a, b)
+                && let Some(pair) = self.new_pair(a, b)
+            {
+                self.pairs.insert(pair);
+            }
+        }
+        self.new_pairs = found;
+    }
+
+    /// A pair of two colliders that may touch, or `None` if they never do: of one body, neither dynamic, or jointed.
+    fn new_pair(&self, collider_a: u32, collider_b: u32) -> Option<Pair<N>> {
+        let a = self.colliders[collider_a as usize].as_ref()?;
+        let b = self.colliders[collider_b as usize].as_ref()?;
+        let (body_a, body_b) = (self.bodies.at(a.body)?, self.bodies.at(b.body)?);
+        if a.body == b.body || !may_collide(body_a, body_b) || self.are_joined(body_a, b.body) {
+            return None;
+        }
+        Some(Pair {
+            collider_a,
+            collider_b,
+            body_a: a.body,
+            body_b: b.body,
+            friction: body_a.material.combined_friction(&body_b.material),
+            restitution: body_a.material.combined_restitution(&body_b.material),
+            manifold: Manifold::default(),
+            normal_impulses: [0.0; hyperbody_collision::MAX_POINTS],
+            friction_impulse: Vector::ZERO,
+            twist_impulse: Bivector::ZERO,
+            cache: PairCache::default(),
+        })
+    }
+
+    fn are_joined(&self, body: &Body<N>, other: u32) -> bool {
+        body.joints
+            .iter()
+            .filter_map(|&slot| self.joints.at(slot))
+            .any(|joint| joint.body_a == other || joint.body_b == other)
+    }
+
+    /// Wakes the islands of the bodies that the user touched since the last step.
+    pub(crate) fn serve_wake_requests(&mut self) {
+        let mut requests = std::mem::take(&mut self.wake_requests);
+        for &slot in &requests {
+            self.islands.wake_body(slot, &mut self.bodies);
+            let Some(body) = self.bodies.at_mut(slot) else { continue };
+            body.slow_time = 0.0;
+            for &collider in &body.colliders {
+                if let Some(collider) = &mut self.colliders[collider as usize] {
+                    // A teleported body must be looked at, static ones too.
+                    collider.moved = true;
+                }
+            }
+        }
+        requests.clear();
+        self.wake_requests = requests;
+        let bodies: &Arena<Body<N>, BodyHandle> = &self.bodies;
+        self.quarantined.retain(|&handle| bodies.get(handle).is_some_and(|body| body.quarantined));
+    }
+}
+
+fn may_collide<const N: usize>(a: &Body<N>, b: &Body<N>) -> bool {
+    a.kind == BodyKind::Dynamic || b.kind == BodyKind::Dynamic
+}
+
+fn query<const N: usize>(tree: &DynamicTree<N>, aabb: &Aabb<N>, stack: &mut Vec<u32>, mut found: impl FnMut(u32)) {
+    tree.for_each_overlap(aabb, stack, |other| {
+        found(other);
+        true
+    });
+}
+
+/// The box and where it will be a step later.
+fn ahead<const N: usize>(tight: &Aabb<N>, motion: Vector<N>) -> Aabb<N> {
+    tight.union(&Aabb { lower: tight.lower + motion, upper: tight.upper + motion })
+}
+
+fn finite<const N: usize>(aabb: &Aabb<N>) -> bool {
+    aabb.lower.is_finite() && aabb.upper.is_finite()
+}
+
+/// Whether fattened boxes, or a half-space and a fattened box, have a point in common.
+fn boxes_meet<const N: usize>(a: &Collider<N>, b: &Collider<N>) -> bool {
+    match (&a.piece, &b.piece) {
+        (Piece::HalfSpace { normal, offset }, Piece::Convex(_)) => half_space_meets(a, *normal, *offset, &b.fat_aabb),
+        (Piece::Convex(_), Piece::HalfSpace { normal, offset }) => half_space_meets(b, *normal, *offset, &a.fat_aabb),
+        (Piece::Convex(_), Piece::Convex(_)) => a.fat_aabb.overlaps(&b.fat_aabb),
+        (Piece::HalfSpace { .. }, Piece::HalfSpace { .. }) => false,
+    }
+}
+
+fn half_space_meets<const N: usize>(plane: &Collider<N>, normal: Vector<N>, offset: f64, aabb: &Aabb<N>) -> bool {
+    let normal = plane.world_from_collider.rotation.rotate(normal);
+    let offset = offset + normal.dot(plane.world_from_collider.translation);
+    let half = (aabb.upper - aabb.lower) * 0.5;
+    normal.dot(aabb.centre()) - normal.abs().dot(half) <= offset
+}

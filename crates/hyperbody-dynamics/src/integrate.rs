@@ -1,0 +1,118 @@
+//! Impulses and forces become motion: the end of the step.
+//!
+//! With substep h, velocity v₀ and acceleration a at the start, and Σ the solver's displacement: x ← x + n·h·v₀ +
+//! ½n(n+1)·h²·a + Σ, which is what n substeps of the semi-implicit Euler rule give, exactly.
+
+use hyperbody_math::{Bivector, Rotation, Vector};
+
+use crate::body::Body;
+use crate::solver::bodies::{Sizes, SolverBody};
+use crate::{BodyKind, Tuning, World};
+
+impl<const N: usize> World<N> {
+    /// Writes the solver's results into the bodies.
+    pub(crate) fn integrate(&mut self) {
+        let n = f64::from(self.substeps);
+        let h = self.dt / n;
+        let span = Span { dt: self.dt, dt_sq: h * h * n * (n + 1.0) * 0.5 };
+        let mut gyros = self.solver.gyros.iter().peekable();
+        for (row, solved) in self.solver.bodies.iter().enumerate() {
+            let Some(body) = self.bodies.at_mut(solved.slot) else { continue };
+            let before = (body.centre, body.rotation);
+            let at = row * Sizes::<N>::STATE;
+            let (change, displacement) = self.solver.state[at..at + Sizes::<N>::STATE].split_at(Sizes::<N>::VELOCITY);
+            span.translate(body, solved, &change[..N], &displacement[..N]);
+            match gyros.next_if(|gyro| gyro.body == row) {
+                Some(gyro) => {
+                    body.angular_momentum = gyro.momentum(solved, &self.solver.state, span.dt);
+                    let mut rotation = gyro.world_from_principal * body.inertia.body_from_principal.inverse();
+                    rotation.reorthonormalize();
+                    body.rotation = rotation;
+                }
+                None => span.turn(body, solved, &change[N..], &displacement[N..]),
+            }
+            finish(body, &self.tuning, self.dt);
+            if !body.state_is_finite() {
+                quarantine(body, before);
+                if let Some(handle) = self.bodies.handle_at(solved.slot) {
+                    self.quarantined.push(handle);
+                }
+            }
+        }
+        for body in self.bodies.values_mut().filter(|body| body.kind == BodyKind::Kinematic) {
+            body.centre += body.velocity * self.dt;
+            if body.angular_velocity != Bivector::ZERO {
+                body.rotation = Rotation::exp(&(body.angular_velocity * self.dt)) * body.rotation;
+                body.rotation.reorthonormalize();
+            }
+        }
+    }
+}
+
+/// Lengths of the step as base motion enters: n·h and ½n(n+1)·h².
+#[derive(Clone, Copy)]
+struct Span {
+    dt: f64,
+    dt_sq: f64,
+}
+
+impl Span {
+    fn translate<const N: usize>(
+        &self,
+        body: &mut Body<N>,
+        solved: &SolverBody<N>,
+        change: &[crate::solver::Real],
+        displacement: &[crate::solver::Real],
+    ) {
+        let scale = solved.inverse_sqrt_mass;
+        let by_impulses = Vector::from_fn(|i| f64::from(displacement[i]) * scale);
+        body.centre += solved.velocity * self.dt + solved.acceleration * self.dt_sq + by_impulses;
+        body.velocity += solved.acceleration * self.dt + Vector::from_fn(|i| f64::from(change[i]) * scale);
+    }
+
+    /// Isotropic bodies: momentum and velocity are parallel, so the turn is one exponential.
+    fn turn<const N: usize>(
+        &self,
+        body: &mut Body<N>,
+        solved: &SolverBody<N>,
+        change: &[crate::solver::Real],
+        displacement: &[crate::solver::Real],
+    ) {
+        body.angular_momentum += body.torque * self.dt + solved.momentum_of(change);
+        let turned = solved.angular_velocity * self.dt
+            + solved.angular_acceleration * self.dt_sq
+            + solved.unscaled_velocity(displacement);
+        if turned != Bivector::ZERO {
+            body.rotation = Rotation::exp(&turned) * body.rotation;
+            body.rotation.reorthonormalize();
+        }
+    }
+}
+
+/// Derived quantities, limits, and how long the body has been slow.
+fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
+    body.force = Vector::ZERO;
+    body.torque = Bivector::ZERO;
+    body.refresh_angular_velocity();
+    let speed = body.velocity.norm();
+    if speed > tuning.max_speed {
+        body.velocity *= tuning.max_speed / speed;
+    }
+    let spin = body.angular_velocity.norm();
+    if spin > tuning.max_spin {
+        body.angular_momentum *= tuning.max_spin / spin;
+        body.angular_velocity *= tuning.max_spin / spin;
+    }
+    let fastest = speed + spin * body.radius;
+    body.slow_time = if fastest < tuning.sleep_speed { body.slow_time + dt } else { 0.0 };
+}
+
+/// Takes a body out of the simulation, where it last was, at rest.
+fn quarantine<const N: usize>(body: &mut Body<N>, (centre, rotation): (Vector<N>, Rotation<N>)) {
+    body.quarantined = true;
+    body.centre = centre;
+    body.rotation = rotation;
+    body.velocity = Vector::ZERO;
+    body.angular_velocity = Bivector::ZERO;
+    body.angular_momentum = Bivector::ZERO;
+}

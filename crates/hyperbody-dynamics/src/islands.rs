@@ -1,0 +1,191 @@
+//! Who rests together falls asleep together, and wakes together.
+//!
+//! Awake dynamic bodies that touch or are jointed form an island (found anew at each step by union–find, in the order of
+//! pairs and joints). When every body of an island has been slow for long enough, the island sleeps as one; when
+//! anything awake touches one of it, or the user does, all of it wakes. So no body is left hanging on a sleeping
+//! neighbour that has gone.
+
+use crate::body::Body;
+use crate::handle::Arena;
+use crate::{BodyHandle, World};
+
+/// Sleeping islands, and the buffers of union–find.
+#[derive(Clone, Debug)]
+pub(crate) struct Islands {
+    /// Bodies of each sleeping island; empty ones are free.
+    sleeping: Vec<Vec<u32>>,
+    free: Vec<u32>,
+    parent: Vec<u32>,
+    /// By root: shortest time that a body of the island has been slow.
+    least_slow_time: Vec<f64>,
+    /// By root: the sleeping island that it became in this step.
+    became: Vec<u32>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Islands {
+    pub(crate) const fn new() -> Self {
+        Self {
+            sleeping: Vec::new(),
+            free: Vec::new(),
+            parent: Vec::new(),
+            least_slow_time: Vec::new(),
+            became: Vec::new(),
+        }
+    }
+
+    /// Wakes the island of a body; true if it slept.
+    pub(crate) fn wake_body<const N: usize>(&mut self, slot: u32, bodies: &mut Arena<Body<N>, BodyHandle>) -> bool {
+        let Some(island) = bodies.at(slot).and_then(|body| body.asleep_in) else { return false };
+        let mut members = std::mem::take(&mut self.sleeping[island as usize]);
+        for &member in &members {
+            if let Some(body) = bodies.at_mut(member) {
+                body.asleep_in = None;
+                body.slow_time = 0.0;
+            }
+        }
+        members.clear();
+        self.sleeping[island as usize] = members;
+        self.free.push(island);
+        true
+    }
+
+    /// Wakes everything.
+    pub(crate) fn wake_all<const N: usize>(&mut self, bodies: &mut Arena<Body<N>, BodyHandle>) {
+        for slot in 0..bodies.slot_count() {
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+            self.wake_body(slot as u32, bodies);
+        }
+    }
+
+    fn find(&mut self, mut x: u32) -> u32 {
+        while self.parent[x as usize] != x {
+            let grandparent = self.parent[self.parent[x as usize] as usize];
+            self.parent[x as usize] = grandparent;
+            x = grandparent;
+        }
+        x
+    }
+
+    /// Joins two islands; the smaller root wins, so that the result does not depend on the order.
+    fn unite(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parent[a.max(b) as usize] = a.min(b);
+    }
+
+    fn new_sleeping_island(&mut self) -> u32 {
+        self.free.pop().unwrap_or_else(|| {
+            self.sleeping.push(Vec::new());
+            #[expect(clippy::cast_possible_truncation, reason = "no more islands than bodies")]
+            let last = (self.sleeping.len() - 1) as u32;
+            last
+        })
+    }
+}
+
+impl<const N: usize> World<N> {
+    /// Wakes sleepers that something awake touches or is jointed to, until none is left.
+    pub(crate) fn wake_touched(&mut self) {
+        // Each round wakes at least one island or is the last.
+        for _ in 0..=self.islands.sleeping.len() {
+            let mut woken = false;
+            for slot in 0..self.pairs.slots().len() {
+                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+                let Some(pair) = self.pairs.get(slot as u32) else { continue };
+                let touching = pair.manifold.points().iter().any(|point| point.separation <= 0.0);
+                let (a, b) = (pair.body_a, pair.body_b);
+                if touching {
+                    woken |= self.wake_across(a, b);
+                }
+            }
+            for slot in 0..self.joints.slot_count() {
+                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+                let Some(joint) = self.joints.at(slot as u32) else { continue };
+                let (a, b) = (joint.body_a, joint.body_b);
+                woken |= self.wake_across(a, b);
+            }
+            if !woken {
+                return;
+            }
+        }
+    }
+
+    /// Wakes the one of two bodies that sleeps if the other one is up and about.
+    fn wake_across(&mut self, a: u32, b: u32) -> bool {
+        let (Some(body_a), Some(body_b)) = (self.bodies.at(a), self.bodies.at(b)) else { return false };
+        let disturbs = |body: &Body<N>| {
+            body.is_awake() && (body.is_moving() || body.velocity.norm_sq() + body.angular_velocity.norm_sq() > 0.0)
+        };
+        if body_a.asleep_in.is_some() && disturbs(body_b) {
+            return self.islands.wake_body(a, &mut self.bodies);
+        }
+        if body_b.asleep_in.is_some() && disturbs(body_a) {
+            return self.islands.wake_body(b, &mut self.bodies);
+        }
+        false
+    }
+
+    /// Puts islands to sleep whose bodies have all been slow for long enough.
+    pub(crate) fn fall_asleep(&mut self) {
+        if !self.sleeping {
+            return;
+        }
+        let limit = self.tuning.sleep_time;
+        if !self.bodies.values().any(|body| body.is_moving() && body.slow_time >= limit) {
+            return;
+        }
+        self.find_islands();
+        let slot_count = self.bodies.slot_count();
+        self.islands.became.clear();
+        self.islands.became.resize(slot_count, NONE);
+        for slot in 0..slot_count {
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+            let slot = slot as u32;
+            if !self.bodies.at(slot).is_some_and(Body::is_moving) {
+                continue;
+            }
+            let root = self.islands.find(slot) as usize;
+            if self.islands.least_slow_time[root] < limit {
+                continue;
+            }
+            if self.islands.became[root] == NONE {
+                self.islands.became[root] = self.islands.new_sleeping_island();
+            }
+            let island = self.islands.became[root];
+            self.islands.sleeping[island as usize].push(slot);
+            if let Some(body) = self.bodies.at_mut(slot) {
+                body.fall_asleep_in(island);
+            }
+        }
+    }
+
+    fn find_islands(&mut self) {
+        let slot_count = self.bodies.slot_count();
+        self.islands.parent.clear();
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+        self.islands.parent.extend(0..slot_count as u32);
+        for pair in self.pairs.iter().filter(|pair| !pair.manifold.points().is_empty()) {
+            unite_moving(&mut self.islands, &self.bodies, pair.body_a, pair.body_b);
+        }
+        for joint in self.joints.values() {
+            unite_moving(&mut self.islands, &self.bodies, joint.body_a, joint.body_b);
+        }
+        self.islands.least_slow_time.clear();
+        self.islands.least_slow_time.resize(slot_count, f64::INFINITY);
+        for slot in 0..slot_count {
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+            let slot = slot as u32;
+            let Some(body) = self.bodies.at(slot).filter(|body| body.is_moving()) else { continue };
+            let slow_time = if body.can_sleep { body.slow_time } else { 0.0 };
+            let root = self.islands.find(slot) as usize;
+            self.islands.least_slow_time[root] = self.islands.least_slow_time[root].min(slow_time);
+        }
+    }
+}
+
+fn unite_moving<const N: usize>(islands: &mut Islands, bodies: &Arena<Body<N>, BodyHandle>, a: u32, b: u32) {
+    if bodies.at(a).is_some_and(Body::is_moving) && bodies.at(b).is_some_and(Body::is_moving) {
+        islands.unite(a, b);
+    }
+}

@@ -1,0 +1,150 @@
+//! The bodies of one step as the solver sees them.
+//!
+//! Each body's velocity is split: a base part in double precision, which is known in advance (the velocity at the start
+//! of the step, growing by constant accelerations), and the change that impulses make, in the solver's precision. Rows
+//! carry the base part as two numbers each, and work on the change alone.
+//!
+//! The change is kept scaled by the square root of the mass, linear part in world axes, angular part in the body's
+//! solver frame: the principal frame at the start of the step (the world's axes for isotropic bodies). There, the
+//! inverse mass matrix is the identity: one vector a row serves both to measure a velocity and to apply an impulse,
+//! and bodies that no impulse moves are rows of zeros.
+
+use hyperbody_math::{Bivector, Rotation, Vector, planes};
+
+use super::lanes::Real;
+use crate::body::Body;
+
+/// Most planes of any dimension: 15 in 6D.
+pub(crate) const MAX_PLANES: usize = planes::count(6);
+
+/// Sizes that follow from the dimension.
+pub(crate) struct Sizes<const N: usize>;
+
+impl<const N: usize> Sizes<N> {
+    /// Planes.
+    pub(crate) const K: usize = planes::count(N);
+    /// Numbers of a velocity: linear, then angular.
+    pub(crate) const VELOCITY: usize = N + Self::K;
+    /// Numbers of a body: change of velocity, then displacement by it.
+    pub(crate) const STATE: usize = 2 * Self::VELOCITY;
+}
+
+/// Mass, frame and base motion of a body during one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SolverBody<const N: usize> {
+    /// Slot in the world.
+    pub(crate) slot: u32,
+    /// 1/√m; zero for bodies that no impulse moves.
+    pub(crate) inverse_sqrt_mass: f64,
+    /// World from solver frame; `None` where that is the identity.
+    pub(crate) frame: Option<Rotation<N>>,
+    /// 1/√I of plane (i, j) of the solver frame, lexicographic; zero for bodies that no impulse moves.
+    pub(crate) inverse_sqrt_moments: [f64; MAX_PLANES],
+    pub(crate) centre: Vector<N>,
+    /// Base motion: velocity at time t of the step = velocity + t · acceleration.
+    pub(crate) velocity: Vector<N>,
+    pub(crate) angular_velocity: Bivector<N>,
+    pub(crate) acceleration: Vector<N>,
+    pub(crate) angular_acceleration: Bivector<N>,
+}
+
+impl<const N: usize> SolverBody<N> {
+    /// A body that no impulse moves.
+    pub(crate) fn immovable(body: &Body<N>) -> Self {
+        Self {
+            slot: u32::MAX,
+            inverse_sqrt_mass: 0.0,
+            frame: None,
+            inverse_sqrt_moments: [0.0; MAX_PLANES],
+            centre: body.centre,
+            velocity: body.velocity,
+            angular_velocity: body.angular_velocity,
+            acceleration: Vector::ZERO,
+            angular_acceleration: Bivector::ZERO,
+        }
+    }
+
+    /// A dynamic body under gravity and its own forces.
+    pub(crate) fn dynamic(slot: u32, body: &Body<N>, gravity: Vector<N>) -> Self {
+        let mut inverse_sqrt_moments = [0.0; MAX_PLANES];
+        for (k, (i, j)) in planes::all(N).enumerate() {
+            inverse_sqrt_moments[k] = 1.0 / body.inertia.plane_moment(i, j).sqrt();
+        }
+        let frame = body.inertia.isotropic.is_none().then(|| body.rotation * body.inertia.body_from_principal);
+        Self {
+            slot,
+            inverse_sqrt_mass: body.inverse_mass.sqrt(),
+            frame,
+            inverse_sqrt_moments,
+            centre: body.centre,
+            velocity: body.velocity,
+            angular_velocity: body.angular_velocity,
+            acceleration: gravity * body.gravity_scale + body.force * body.inverse_mass,
+            angular_acceleration: body.inertia.velocity(&body.rotation, &body.torque),
+        }
+    }
+
+    /// The scaled arm of direction `d` at offset `r`, both in the world: (r ∧ d) in the solver frame over √I.
+    #[inline]
+    pub(crate) fn arm(&self, r: Vector<N>, d: Vector<N>) -> [f64; MAX_PLANES] {
+        let (r, d) = match &self.frame {
+            Some(frame) => (frame.inverse_rotate(r), frame.inverse_rotate(d)),
+            None => (r, d),
+        };
+        let mut arm = [0.0; MAX_PLANES];
+        let mut k = 0;
+        for i in 0..N {
+            for j in i + 1..N {
+                arm[k] = (r.0[i] * d.0[j] - r.0[j] * d.0[i]) * self.inverse_sqrt_moments[k];
+                k += 1;
+            }
+        }
+        arm
+    }
+
+    /// Base velocity of the point at offset `r` at the start of the step.
+    #[inline]
+    pub(crate) fn base_velocity_at(&self, r: Vector<N>) -> Vector<N> {
+        self.velocity + self.angular_velocity.act_on(r)
+    }
+
+    /// Base acceleration of the point at offset `r`.
+    #[inline]
+    pub(crate) fn base_acceleration_at(&self, r: Vector<N>) -> Vector<N> {
+        self.acceleration + self.angular_acceleration.act_on(r)
+    }
+
+    /// A bivector of the solver frame, scaled by 1/√I (velocities, displacements), in the world.
+    pub(crate) fn unscaled_velocity(&self, scaled: &[Real]) -> Bivector<N> {
+        self.in_world(scaled, |k| self.inverse_sqrt_moments[k])
+    }
+
+    /// The angular momentum of a scaled angular velocity, in the world: √I times it.
+    pub(crate) fn momentum_of(&self, scaled: &[Real]) -> Bivector<N> {
+        self.in_world(scaled, |k| 1.0 / self.inverse_sqrt_moments[k])
+    }
+
+    fn in_world(&self, scaled: &[Real], factor: impl Fn(usize) -> f64) -> Bivector<N> {
+        let mut result = Bivector::ZERO;
+        for (k, (i, j)) in planes::all(N).enumerate() {
+            result.set(i, j, f64::from(scaled[k]) * factor(k));
+        }
+        match &self.frame {
+            Some(frame) => frame.rotate_bivector(&result),
+            None => result,
+        }
+    }
+
+    /// The inverse of [`SolverBody::unscaled_velocity`].
+    pub(crate) fn scaled_velocity(&self, in_world: &Bivector<N>) -> [Real; MAX_PLANES] {
+        let local = match &self.frame {
+            Some(frame) => frame.inverse_rotate_bivector(in_world),
+            None => *in_world,
+        };
+        let mut scaled = [0.0; MAX_PLANES];
+        for (k, value) in local.planes().enumerate() {
+            scaled[k] = (value / self.inverse_sqrt_moments[k]) as Real;
+        }
+        scaled
+    }
+}

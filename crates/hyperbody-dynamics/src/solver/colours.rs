@@ -1,0 +1,119 @@
+//! Which contacts may be solved side by side: those that share no moving body.
+//!
+//! Contacts are coloured greedily in their fixed order so that no two of one colour share a body; within a colour the
+//! order does not matter, so the result depends neither on the width of vectors nor on threads. Contacts with the
+//! immovable come in colours of their own, after the others: the last word is theirs, and nothing sinks into the ground
+//! (after E. Catto, Box2D v3, 2024). What 64 colours don't hold is solved one by one.
+
+use super::lanes::WIDTH;
+
+/// A contact to be solved: slots and rows of its bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ActiveContact {
+    pub(crate) pair: u32,
+    /// Rows of the solver's bodies; `movable` tells which may be written.
+    pub(crate) body_a: u32,
+    pub(crate) body_b: u32,
+    pub(crate) points: u8,
+}
+
+/// Contacts that are solved side by side; unused lanes hold [`Group::EMPTY`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    /// Indices of active contacts.
+    pub(crate) contacts: [u32; WIDTH],
+}
+
+impl Group {
+    pub(crate) const EMPTY: u32 = u32::MAX;
+}
+
+const COLOURS: usize = 64;
+
+/// Buffers of the colouring, kept from step to step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Colours {
+    used: Vec<u64>,
+    colour_of: Vec<u8>,
+    order: Vec<u32>,
+    /// Groups in the order of solving.
+    pub(crate) groups: Vec<Group>,
+}
+
+impl Colours {
+    /// Groups the contacts. `movable(body)` tells whether impulses move a solver body.
+    pub(crate) fn assign(&mut self, contacts: &[ActiveContact], body_count: usize, movable: impl Fn(u32) -> bool) {
+        self.used.clear();
+        self.used.resize(body_count, 0);
+        self.colour_of.clear();
+        self.colour_of.resize(contacts.len(), OVERFLOW);
+        let first_static = self.colour(contacts, &movable, true, 0);
+        self.colour(contacts, &movable, false, first_static);
+        self.order.clear();
+        #[expect(clippy::cast_possible_truncation, reason = "fewer contacts than fit into memory")]
+        self.order.extend(0..contacts.len() as u32);
+        // Contacts with as many points stand together, so that few lanes idle; ties keep their order.
+        let colour_of = &self.colour_of;
+        self.order.sort_by_key(|&c| (colour_of[c as usize], u8::MAX - contacts[c as usize].points, c));
+        self.pack();
+    }
+
+    /// Colours the contacts whose bodies both move (`both` true) or only one does; returns the colour after the last.
+    fn colour(
+        &mut self,
+        contacts: &[ActiveContact],
+        movable: &impl Fn(u32) -> bool,
+        both: bool,
+        first: usize,
+    ) -> usize {
+        let mut next = first;
+        for (index, contact) in contacts.iter().enumerate() {
+            let (a, b) = (movable(contact.body_a), movable(contact.body_b));
+            if (a && b) != both {
+                continue;
+            }
+            let mut taken = (1_u64 << first) - 1;
+            if a {
+                taken |= self.used[contact.body_a as usize];
+            }
+            if b {
+                taken |= self.used[contact.body_b as usize];
+            }
+            let colour = taken.trailing_ones() as usize;
+            if colour + 1 >= COLOURS {
+                continue;
+            }
+            if a {
+                self.used[contact.body_a as usize] |= 1 << colour;
+            }
+            if b {
+                self.used[contact.body_b as usize] |= 1 << colour;
+            }
+            #[expect(clippy::cast_possible_truncation, reason = "below 64")]
+            let colour_byte = colour as u8;
+            self.colour_of[index] = colour_byte;
+            next = next.max(colour + 1);
+        }
+        next.min(COLOURS - 2)
+    }
+
+    fn pack(&mut self) {
+        self.groups.clear();
+        let mut lane = WIDTH;
+        let mut current = OVERFLOW;
+        for &contact in &self.order {
+            let colour = self.colour_of[contact as usize];
+            if lane == WIDTH || colour != current || colour == OVERFLOW {
+                self.groups.push(Group { contacts: [Group::EMPTY; WIDTH] });
+                lane = 0;
+                current = colour;
+            }
+            if let Some(group) = self.groups.last_mut() {
+                group.contacts[lane] = contact;
+            }
+            lane += 1;
+        }
+    }
+}
+
+const OVERFLOW: u8 = u8::MAX;

@@ -1,0 +1,256 @@
+//! From a manifold to rows, and from solved rows back to the pair's warm start.
+
+use hyperbody_math::{Bivector, Vector};
+
+use super::{Block, Layout};
+use crate::pairs::Pair;
+use crate::solver::bodies::{MAX_PLANES, Sizes, SolverBody};
+use crate::solver::lanes::{Lanes, Real};
+use crate::solver::softness::Softness;
+
+/// What preparing needs of the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prepare {
+    /// Between two moving bodies.
+    pub(crate) soft: Softness,
+    /// Against the immovable: twice as stiff, because there the other side won't give.
+    pub(crate) stiff: Softness,
+}
+
+/// One contact while its lane is filled.
+struct Lane<'a, const N: usize> {
+    rows: &'a mut [Lanes],
+    lane: usize,
+    a: &'a SolverBody<N>,
+    b: &'a SolverBody<N>,
+}
+
+/// Offsets of a point from both centres of mass, world axes.
+#[derive(Clone, Copy)]
+struct Offsets<const N: usize> {
+    a: Vector<N>,
+    b: Vector<N>,
+}
+
+impl Prepare {
+    /// Fills one lane of a block from a pair's manifold and warm start.
+    pub(crate) fn fill<const N: usize>(
+        &self,
+        block: &Block,
+        rows: &mut [Lanes],
+        lane: usize,
+        pair: &Pair<N>,
+        a: &SolverBody<N>,
+        b: &SolverBody<N>,
+    ) {
+        let mut lane = Lane { rows, lane, a, b };
+        let both_move = a.inverse_sqrt_mass > 0.0 && b.inverse_sqrt_mass > 0.0;
+        lane.header(pair, if both_move { &self.soft } else { &self.stiff });
+        let points = pair.manifold.points();
+        let mut centre = Vector::ZERO;
+        for point in points {
+            centre += point.position * (1.0 / points.len() as f64);
+        }
+        let tangents = pair.manifold.normal.orthonormal_complement();
+        lane.sliding(pair, centre, &tangents);
+        if block.twists > 0 {
+            lane.twisting(pair, &tangents);
+        }
+        lane.points(pair, centre, Layout::<N>::points_start(block));
+    }
+}
+
+impl<const N: usize> Lane<'_, N> {
+    fn set(&mut self, position: usize, value: f64) {
+        self.rows[position].0[self.lane] = value as Real;
+    }
+
+    fn set_arms(&mut self, position: usize, a: &[f64; MAX_PLANES], b: &[f64; MAX_PLANES]) {
+        for k in 0..Sizes::<N>::K {
+            self.set(position + k, a[k]);
+            self.set(position + Sizes::<N>::K + k, b[k]);
+        }
+    }
+
+    fn offsets(&self, point: Vector<N>) -> Offsets<N> {
+        Offsets { a: point - self.a.centre, b: point - self.b.centre }
+    }
+
+    /// Relative base velocity and acceleration of b against a at a point.
+    fn base_motion(&self, r: Offsets<N>) -> (Vector<N>, Vector<N>) {
+        (
+            self.b.base_velocity_at(r.b) - self.a.base_velocity_at(r.a),
+            self.b.base_acceleration_at(r.b) - self.a.base_acceleration_at(r.a),
+        )
+    }
+
+    fn inverse_mass_sum(&self) -> f64 {
+        self.a.inverse_sqrt_mass * self.a.inverse_sqrt_mass + self.b.inverse_sqrt_mass * self.b.inverse_sqrt_mass
+    }
+
+    fn header(&mut self, pair: &Pair<N>, softness: &Softness) {
+        self.set(Layout::<N>::INVERSE_SQRT_MASS_A, self.a.inverse_sqrt_mass);
+        self.set(Layout::<N>::INVERSE_SQRT_MASS_B, self.b.inverse_sqrt_mass);
+        self.set(Layout::<N>::FRICTION, pair.friction);
+        self.set(Layout::<N>::RESTITUTION, pair.restitution);
+        self.set(Layout::<N>::BIAS_RATE, softness.bias_rate);
+        self.set(Layout::<N>::MASS_SCALE, softness.mass_scale);
+        self.set(Layout::<N>::IMPULSE_SCALE, softness.impulse_scale);
+        for i in 0..N {
+            self.set(Layout::<N>::NORMAL + i, pair.manifold.normal[i]);
+        }
+    }
+
+    fn sliding(&mut self, pair: &Pair<N>, centre: Vector<N>, tangents: &[Vector<N>; N]) {
+        let r = self.offsets(centre);
+        let (velocity, acceleration) = self.base_motion(r);
+        let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); N];
+        for t in 0..Layout::<N>::SLIDES {
+            let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
+            let tangent = tangents[t];
+            for i in 0..N {
+                self.set(at + i, tangent[i]);
+            }
+            arms[t] = (self.a.arm(r.a, tangent), self.b.arm(r.b, tangent));
+            self.set_arms(at + Layout::<N>::SLIDE_ARM_A, &arms[t].0, &arms[t].1);
+            self.set(at + Layout::<N>::SLIDE_VELOCITY, velocity.dot(tangent));
+            self.set(at + Layout::<N>::SLIDE_ACCELERATION, acceleration.dot(tangent));
+            self.set(at + Layout::<N>::SLIDE_IMPULSE, pair.friction_impulse.dot(tangent));
+        }
+        self.sliding_mass(&arms);
+    }
+
+    /// Inverse of T K Tᵀ with K the paper's response matrix summed over both bodies. Symmetric and positive definite,
+    /// because (m_a + m_b)⁻¹ stands on its diagonal.
+    fn sliding_mass(&mut self, arms: &[([f64; MAX_PLANES], [f64; MAX_PLANES]); N]) {
+        let slides = Layout::<N>::SLIDES;
+        let mut k = [[0.0; N]; N];
+        for s in 0..slides {
+            for t in 0..slides {
+                let mut sum = if s == t { self.inverse_mass_sum() } else { 0.0 };
+                for plane in 0..Sizes::<N>::K {
+                    sum += arms[s].0[plane] * arms[t].0[plane] + arms[s].1[plane] * arms[t].1[plane];
+                }
+                k[s][t] = sum;
+            }
+        }
+        let inverse = invert_positive_definite(k, slides);
+        let mut at = Layout::<N>::SLIDE_MASS;
+        for s in 0..slides {
+            for t in s..slides {
+                self.set(at, inverse[s][t]);
+                at += 1;
+            }
+        }
+    }
+
+    /// Twisting rows are the planes of the tangent space; their bivectors are orthonormal. One mass serves them all: the
+    /// inverse of the largest row sum of their response matrix, exact for isotropic bodies and safe for others
+    /// (Gershgorin).
+    fn twisting(&mut self, pair: &Pair<N>, tangents: &[Vector<N>; N]) {
+        let spin = self.b.angular_velocity - self.a.angular_velocity;
+        let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
+        let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); MAX_PLANES];
+        let mut row = 0;
+        for s in 0..Layout::<N>::SLIDES {
+            for t in s + 1..Layout::<N>::SLIDES {
+                let at = Layout::<N>::TWIST_ROWS + row * Layout::<N>::TWIST_ROW;
+                let plane = Bivector::wedge(tangents[s], tangents[t]);
+                arms[row] = (self.a.arm(tangents[s], tangents[t]), self.b.arm(tangents[s], tangents[t]));
+                self.set_arms(at + Layout::<N>::TWIST_ARM_A, &arms[row].0, &arms[row].1);
+                self.set(at + Layout::<N>::TWIST_VELOCITY, spin.dot(&plane));
+                self.set(at + Layout::<N>::TWIST_ACCELERATION, spin_up.dot(&plane));
+                self.set(at + Layout::<N>::TWIST_IMPULSE, pair.twist_impulse.dot(&plane));
+                row += 1;
+            }
+        }
+        let mut largest: f64 = 0.0;
+        for s in 0..row {
+            let mut sum = 0.0;
+            for t in 0..row {
+                let mut response = 0.0;
+                for plane in 0..Sizes::<N>::K {
+                    response += arms[s].0[plane] * arms[t].0[plane] + arms[s].1[plane] * arms[t].1[plane];
+                }
+                sum += f64::abs(response);
+            }
+            largest = largest.max(sum);
+        }
+        self.set(Layout::<N>::TWIST_MASS, if largest > 0.0 { 1.0 / largest } else { 0.0 });
+    }
+
+    fn points(&mut self, pair: &Pair<N>, centre: Vector<N>, start: usize) {
+        let normal = pair.manifold.normal;
+        for (index, point) in pair.manifold.points().iter().enumerate() {
+            let at = start + index * Layout::<N>::POINT_ROW;
+            let r = self.offsets(point.position);
+            let (velocity, acceleration) = self.base_motion(r);
+            let (arm_a, arm_b) = (self.a.arm(r.a, normal), self.b.arm(r.b, normal));
+            let mut response = self.inverse_mass_sum();
+            for k in 0..Sizes::<N>::K {
+                response += arm_a[k] * arm_a[k] + arm_b[k] * arm_b[k];
+            }
+            self.set_arms(at + Layout::<N>::POINT_ARM_A, &arm_a, &arm_b);
+            self.set(at + Layout::<N>::POINT_GAP, point.separation);
+            self.set(at + Layout::<N>::POINT_VELOCITY, velocity.dot(normal));
+            self.set(at + Layout::<N>::POINT_ACCELERATION, acceleration.dot(normal));
+            self.set(at + Layout::<N>::POINT_MASS, 1.0 / response);
+            self.set(at + Layout::<N>::POINT_IMPULSE, f64::from(pair.normal_impulses[index]));
+            self.set(at + Layout::<N>::POINT_LEVER, point.position.distance(centre));
+        }
+    }
+}
+
+/// Stores the impulses of one lane in its pair, to warm-start the next step.
+pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, pair: &mut Pair<N>) {
+    let tangents = pair.manifold.normal.orthonormal_complement();
+    let value = |position: usize| f64::from(rows[position].0[lane]);
+    pair.friction_impulse = Vector::ZERO;
+    for (t, &tangent) in tangents.iter().enumerate().take(Layout::<N>::SLIDES) {
+        let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW + Layout::<N>::SLIDE_IMPULSE;
+        pair.friction_impulse += tangent * value(at);
+    }
+    pair.twist_impulse = Bivector::ZERO;
+    if block.twists > 0 {
+        let mut row = 0;
+        for s in 0..Layout::<N>::SLIDES {
+            for t in s + 1..Layout::<N>::SLIDES {
+                let at = Layout::<N>::TWIST_ROWS + row * Layout::<N>::TWIST_ROW + Layout::<N>::TWIST_IMPULSE;
+                pair.twist_impulse += Bivector::wedge(tangents[s], tangents[t]) * value(at);
+                row += 1;
+            }
+        }
+    }
+    let start = Layout::<N>::points_start(block);
+    for index in 0..pair.manifold.points().len() {
+        let at = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_IMPULSE;
+        pair.normal_impulses[index] = rows[at].0[lane];
+    }
+}
+
+/// Inverse of the leading `size`×`size` block of a symmetric positive definite matrix, by Gauss–Jordan elimination,
+/// which needs no pivoting there.
+pub(crate) fn invert_positive_definite<const N: usize>(mut m: [[f64; N]; N], size: usize) -> [[f64; N]; N] {
+    let mut inverse = [[0.0; N]; N];
+    for i in 0..size {
+        inverse[i][i] = 1.0;
+    }
+    for k in 0..size {
+        let scale = 1.0 / m[k][k];
+        for j in 0..size {
+            m[k][j] *= scale;
+            inverse[k][j] *= scale;
+        }
+        for i in 0..size {
+            if i == k {
+                continue;
+            }
+            let factor = m[i][k];
+            for j in 0..size {
+                m[i][j] -= factor * m[k][j];
+                inverse[i][j] -= factor * inverse[k][j];
+            }
+        }
+    }
+    inverse
+}

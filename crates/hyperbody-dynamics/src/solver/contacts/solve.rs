@@ -1,0 +1,363 @@
+//! The passes over contact rows: warm start, solve, bounce. This is where the time of a step goes.
+
+use super::{Block, ContactRows, Layout};
+use crate::solver::bodies::Sizes;
+use crate::solver::lanes::{Lanes, Real, WIDTH};
+
+/// Where a pass stands in the step: factors on the base part of rows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PassTimes {
+    /// Base velocity now = velocity + `elapsed` · acceleration.
+    pub(crate) elapsed: Real,
+    /// Base displacement so far = `moved` · velocity + `moved_sq` · acceleration.
+    pub(crate) moved: Real,
+    pub(crate) moved_sq: Real,
+    /// 1/h.
+    pub(crate) inverse_h: Real,
+    /// Whether overlap is pushed apart; otherwise the rows only stop approach.
+    pub(crate) push: bool,
+    /// m.
+    pub(crate) slop: Real,
+    /// m/s.
+    pub(crate) push_out_speed: Real,
+    /// m/s; of the bounce.
+    pub(crate) restitution_threshold: Real,
+}
+
+/// Changes of velocity of both bodies of a block, one body a lane, and the header's numbers that every row needs.
+struct Pairing<const N: usize> {
+    linear_a: [Lanes; N],
+    linear_b: [Lanes; N],
+    angular_a: [Lanes; MAX],
+    angular_b: [Lanes; MAX],
+    mass_a: Lanes,
+    mass_b: Lanes,
+}
+
+const MAX: usize = crate::solver::bodies::MAX_PLANES;
+
+/// The passes for one dimension.
+pub(crate) struct Passes<const N: usize>;
+
+impl<const N: usize> Passes<N> {
+    const K: usize = Sizes::<N>::K;
+
+    /// Applies the impulses that the rows hold.
+    #[inline(always)]
+    pub(crate) fn warm_start(contacts: &mut ContactRows, state: &mut [Real]) {
+        for block in &contacts.blocks {
+            let rows = &contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
+            let mut p = Pairing::<N>::gather(block, rows, state);
+            for row in rows[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact(Layout::<N>::SLIDE_ROW) {
+                let impulse = row[Layout::<N>::SLIDE_IMPULSE];
+                p.apply_linear(&row[..N], impulse);
+                p.apply_angular(&row[N..N + 2 * Self::K], impulse);
+            }
+            let points_start = Layout::<N>::points_start(block);
+            for row in rows[Layout::<N>::TWIST_ROWS..points_start].chunks_exact(Layout::<N>::TWIST_ROW) {
+                p.apply_angular(&row[..2 * Self::K], row[Layout::<N>::TWIST_IMPULSE]);
+            }
+            let normal = &rows[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
+            let mut sum = Lanes::ZERO;
+            for row in rows[points_start..].chunks_exact(Layout::<N>::POINT_ROW) {
+                let impulse = row[Layout::<N>::POINT_IMPULSE];
+                sum += impulse;
+                p.apply_angular(&row[..2 * Self::K], impulse);
+            }
+            p.apply_linear(normal, sum);
+            p.scatter(block, state);
+        }
+    }
+
+    /// One Gauss–Seidel sweep over all rows.
+    #[inline(always)]
+    pub(crate) fn solve(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
+        for block in &contacts.blocks {
+            let rows = &mut contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
+            let mut p = Pairing::<N>::gather(block, rows, state);
+            let (head, points) = rows.split_at_mut(Layout::<N>::points_start(block));
+            // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
+            // load, so that a sliding body loses exactly μ times its weight.
+            if times.push {
+                Self::rub(block, head, points, &mut p, times);
+                Self::press(block, head, points, &mut p, times, state);
+            } else {
+                Self::press(block, head, points, &mut p, times, state);
+                Self::rub(block, head, points, &mut p, times);
+            }
+            p.scatter(block, state);
+        }
+    }
+
+    #[inline(always)]
+    fn rub(block: &Block, head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
+        Self::slide(head, points, p, times);
+        if block.twists > 0 {
+            Self::twist(head, points, p, times);
+        }
+    }
+
+    #[inline(always)]
+    fn slide(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
+        let mut load = Lanes::ZERO;
+        for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
+            load += row[Layout::<N>::POINT_IMPULSE];
+        }
+        let limit = head[Layout::<N>::FRICTION] * load;
+        let elapsed = Lanes::splat(times.elapsed);
+        let slides = Layout::<N>::SLIDES;
+        let (rows, masses) = head[Layout::<N>::HEADER..].split_at_mut(slides * Layout::<N>::SLIDE_ROW);
+        let mut velocity = [Lanes::ZERO; N];
+        for (t, row) in rows.chunks_exact(Layout::<N>::SLIDE_ROW).enumerate() {
+            velocity[t] = row[Layout::<N>::SLIDE_VELOCITY]
+                + elapsed * row[Layout::<N>::SLIDE_ACCELERATION]
+                + p.measure_linear(&row[..N])
+                + p.measure_angular(&row[N..N + 2 * Self::K]);
+        }
+        // wanted = held − K⁻¹ u, then back into the ball of radius μΣλ.
+        let mut wanted = [Lanes::ZERO; N];
+        let mut at = 0;
+        for s in 0..slides {
+            for t in s..slides {
+                let mass = masses[at];
+                at += 1;
+                wanted[s] -= mass * velocity[t];
+                if t != s {
+                    wanted[t] -= mass * velocity[s];
+                }
+            }
+        }
+        let mut length_sq = Lanes::ZERO;
+        for (t, row) in rows.chunks_exact(Layout::<N>::SLIDE_ROW).enumerate() {
+            wanted[t] += row[Layout::<N>::SLIDE_IMPULSE];
+            length_sq += wanted[t] * wanted[t];
+        }
+        let factor = factor_into_ball(length_sq, limit);
+        for (t, row) in rows.chunks_exact_mut(Layout::<N>::SLIDE_ROW).enumerate() {
+            let impulse = wanted[t] * factor;
+            let change = impulse - row[Layout::<N>::SLIDE_IMPULSE];
+            row[Layout::<N>::SLIDE_IMPULSE] = impulse;
+            p.apply_linear(&row[..N], change);
+            p.apply_angular(&row[N..N + 2 * Self::K], change);
+        }
+    }
+
+    #[inline(always)]
+    fn twist(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
+        let mut load = Lanes::ZERO;
+        for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
+            load += row[Layout::<N>::POINT_IMPULSE] * row[Layout::<N>::POINT_LEVER];
+        }
+        let limit = head[Layout::<N>::FRICTION] * load;
+        let mass = head[Layout::<N>::TWIST_MASS];
+        let elapsed = Lanes::splat(times.elapsed);
+        let rows = &mut head[Layout::<N>::TWIST_ROWS..];
+        let mut wanted = [Lanes::ZERO; MAX];
+        let mut length_sq = Lanes::ZERO;
+        for (t, row) in rows.chunks_exact(Layout::<N>::TWIST_ROW).enumerate() {
+            let velocity = row[Layout::<N>::TWIST_VELOCITY]
+                + elapsed * row[Layout::<N>::TWIST_ACCELERATION]
+                + p.measure_angular(&row[..2 * Self::K]);
+            wanted[t] = row[Layout::<N>::TWIST_IMPULSE] - mass * velocity;
+            length_sq += wanted[t] * wanted[t];
+        }
+        let factor = factor_into_ball(length_sq, limit);
+        for (t, row) in rows.chunks_exact_mut(Layout::<N>::TWIST_ROW).enumerate() {
+            let impulse = wanted[t] * factor;
+            let change = impulse - row[Layout::<N>::TWIST_IMPULSE];
+            row[Layout::<N>::TWIST_IMPULSE] = impulse;
+            p.apply_angular(&row[..2 * Self::K], change);
+        }
+    }
+
+    #[inline(always)]
+    fn press(
+        block: &Block,
+        head: &[Lanes],
+        points: &mut [Lanes],
+        p: &mut Pairing<N>,
+        times: &PassTimes,
+        state: &[Real],
+    ) {
+        let normal = &head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
+        let displacement = Pairing::<N>::gather_displacement(block, head, state);
+        let zero = Lanes::ZERO;
+        let one = Lanes::splat(1.0);
+        let elapsed = Lanes::splat(times.elapsed);
+        let (moved, moved_sq) = (Lanes::splat(times.moved), Lanes::splat(times.moved_sq));
+        let inverse_h = Lanes::splat(times.inverse_h);
+        let (bias_rate, mass_scale, impulse_scale) = if times.push {
+            (head[Layout::<N>::BIAS_RATE], head[Layout::<N>::MASS_SCALE], head[Layout::<N>::IMPULSE_SCALE])
+        } else {
+            (zero, one, zero)
+        };
+        let slop = Lanes::splat(times.slop);
+        let push_limit = Lanes::splat(-times.push_out_speed);
+        let linear_gap = displacement.measure_linear(normal);
+        for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
+            let gap = row[Layout::<N>::POINT_GAP]
+                + moved * row[Layout::<N>::POINT_VELOCITY]
+                + moved_sq * row[Layout::<N>::POINT_ACCELERATION]
+                + linear_gap
+                + displacement.measure_angular(&row[..2 * Self::K]);
+            let velocity = row[Layout::<N>::POINT_VELOCITY]
+                + elapsed * row[Layout::<N>::POINT_ACCELERATION]
+                + p.measure_linear(normal)
+                + p.measure_angular(&row[..2 * Self::K]);
+            // Ahead of touching: approach may close the gap within the substep. Overlapping: pushed apart softly.
+            let overlap = (gap + slop).min(zero);
+            let bias = gap.select_positive(gap * inverse_h, (bias_rate * overlap).max(push_limit));
+            let mass = row[Layout::<N>::POINT_MASS] * gap.select_positive(one, mass_scale);
+            let give_back = gap.select_positive(zero, impulse_scale);
+            let held = row[Layout::<N>::POINT_IMPULSE];
+            let impulse = (held - mass * (velocity + bias) - give_back * held).max(zero);
+            row[Layout::<N>::POINT_IMPULSE] = impulse;
+            row[Layout::<N>::POINT_MAX_IMPULSE] = row[Layout::<N>::POINT_MAX_IMPULSE].max(impulse);
+            let change = impulse - held;
+            p.apply_linear(normal, change);
+            p.apply_angular(&row[..2 * Self::K], change);
+        }
+    }
+
+    /// Gives back the share e of the approach speed at points that were pressed in this step.
+    #[inline(always)]
+    pub(crate) fn bounce(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
+        let zero = Lanes::ZERO;
+        let elapsed = Lanes::splat(times.elapsed);
+        let threshold = Lanes::splat(-times.restitution_threshold);
+        for block in contacts.blocks.iter().filter(|block| block.bounces) {
+            let rows = &mut contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
+            let mut p = Pairing::<N>::gather(block, rows, state);
+            let (head, points) = rows.split_at_mut(Layout::<N>::points_start(block));
+            let normal = &head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
+            let restitution = head[Layout::<N>::RESTITUTION];
+            for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
+                let approach = row[Layout::<N>::POINT_VELOCITY];
+                let velocity = approach
+                    + elapsed * row[Layout::<N>::POINT_ACCELERATION]
+                    + p.measure_linear(normal)
+                    + p.measure_angular(&row[..2 * Self::K]);
+                let held = row[Layout::<N>::POINT_IMPULSE];
+                let wanted = (held - row[Layout::<N>::POINT_MASS] * (velocity + restitution * approach)).max(zero);
+                let pressed = row[Layout::<N>::POINT_MAX_IMPULSE].select_positive(wanted, held);
+                let bounced = restitution.select_positive(pressed, held);
+                let impulse = (threshold - approach).select_positive(bounced, held);
+                row[Layout::<N>::POINT_IMPULSE] = impulse;
+                let change = impulse - held;
+                p.apply_linear(normal, change);
+                p.apply_angular(&row[..2 * Self::K], change);
+            }
+            p.scatter(block, state);
+        }
+    }
+}
+
+/// The factor that shortens a vector to at most `limit`: min(1, limit/length).
+#[inline(always)]
+fn factor_into_ball(length_sq: Lanes, limit: Lanes) -> Lanes {
+    let one = Lanes::splat(1.0);
+    // A zero vector stays zero whatever the factor; the smallest normal number keeps the division finite.
+    let length = length_sq.sqrt().max(Lanes::splat(Real::MIN_POSITIVE));
+    limit.div(length).min(one)
+}
+
+impl<const N: usize> Pairing<N> {
+    #[inline(always)]
+    fn gather(block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
+        Self::gather_at(block, rows, state, 0)
+    }
+
+    /// The displacements in place of the velocities.
+    #[inline(always)]
+    fn gather_displacement(block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
+        Self::gather_at(block, rows, state, Sizes::<N>::VELOCITY)
+    }
+
+    #[inline(always)]
+    fn gather_at(block: &Block, rows: &[Lanes], state: &[Real], part: usize) -> Self {
+        let mut p = Self {
+            linear_a: [Lanes::ZERO; N],
+            linear_b: [Lanes::ZERO; N],
+            angular_a: [Lanes::ZERO; MAX],
+            angular_b: [Lanes::ZERO; MAX],
+            mass_a: rows[Layout::<N>::INVERSE_SQRT_MASS_A],
+            mass_b: rows[Layout::<N>::INVERSE_SQRT_MASS_B],
+        };
+        for lane in 0..WIDTH {
+            let a = block.bodies_a[lane] as usize * Sizes::<N>::STATE + part;
+            let b = block.bodies_b[lane] as usize * Sizes::<N>::STATE + part;
+            let (a, b) = (&state[a..a + Sizes::<N>::VELOCITY], &state[b..b + Sizes::<N>::VELOCITY]);
+            for i in 0..N {
+                p.linear_a[i].0[lane] = a[i];
+                p.linear_b[i].0[lane] = b[i];
+            }
+            for k in 0..Sizes::<N>::K {
+                p.angular_a[k].0[lane] = a[N + k];
+                p.angular_b[k].0[lane] = b[N + k];
+            }
+        }
+        p
+    }
+
+    #[inline(always)]
+    fn scatter(&self, block: &Block, state: &mut [Real]) {
+        for lane in 0..WIDTH {
+            // Row 0 stands for all bodies that no impulse moves; its rows are zero, and so it stays zero.
+            let a = block.bodies_a[lane] as usize * Sizes::<N>::STATE;
+            let a = &mut state[a..a + Sizes::<N>::VELOCITY];
+            for i in 0..N {
+                a[i] = self.linear_a[i].0[lane];
+            }
+            for k in 0..Sizes::<N>::K {
+                a[N + k] = self.angular_a[k].0[lane];
+            }
+            let b = block.bodies_b[lane] as usize * Sizes::<N>::STATE;
+            let b = &mut state[b..b + Sizes::<N>::VELOCITY];
+            for i in 0..N {
+                b[i] = self.linear_b[i].0[lane];
+            }
+            for k in 0..Sizes::<N>::K {
+                b[N + k] = self.angular_b[k].0[lane];
+            }
+        }
+    }
+
+    /// Relative velocity of b against a along `direction`, linear part.
+    #[inline(always)]
+    fn measure_linear(&self, direction: &[Lanes]) -> Lanes {
+        let mut sum = Lanes::ZERO;
+        for i in 0..N {
+            sum += direction[i] * (self.linear_b[i] * self.mass_b - self.linear_a[i] * self.mass_a);
+        }
+        sum
+    }
+
+    /// The same, angular part, by the row's two arms.
+    #[inline(always)]
+    fn measure_angular(&self, arms: &[Lanes]) -> Lanes {
+        let mut sum_a = Lanes::ZERO;
+        let mut sum_b = Lanes::ZERO;
+        for k in 0..Sizes::<N>::K {
+            sum_a += arms[k] * self.angular_a[k];
+            sum_b += arms[Sizes::<N>::K + k] * self.angular_b[k];
+        }
+        sum_b - sum_a
+    }
+
+    #[inline(always)]
+    fn apply_linear(&mut self, direction: &[Lanes], impulse: Lanes) {
+        let (a, b) = (impulse * self.mass_a, impulse * self.mass_b);
+        for i in 0..N {
+            self.linear_a[i] -= direction[i] * a;
+            self.linear_b[i] += direction[i] * b;
+        }
+    }
+
+    #[inline(always)]
+    fn apply_angular(&mut self, arms: &[Lanes], impulse: Lanes) {
+        for k in 0..Sizes::<N>::K {
+            self.angular_a[k] -= arms[k] * impulse;
+            self.angular_b[k] += arms[Sizes::<N>::K + k] * impulse;
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Free rotation of anisotropic bodies within the step.
+//!
+//! Their angular velocity changes without any torque. At each substep the world-frame momentum, which the rows know
+//! through impulses, turns the attitude by the momentum-keeping splitting of `free_top`, and the change of angular
+//! velocity that comes of it is put into the solver's state beside the impulses.
+
+use hyperbody_math::{Bivector, Rotation, Vector, planes};
+
+use super::bodies::{MAX_PLANES, Sizes, SolverBody};
+use super::lanes::Real;
+use crate::free_top::free_rotation_step;
+
+/// An anisotropic body during one step.
+#[derive(Clone, Debug)]
+pub(crate) struct Gyro<const N: usize> {
+    /// Row of the solver's bodies.
+    pub(crate) body: usize,
+    /// World from principal frame, now.
+    pub(crate) world_from_principal: Rotation<N>,
+    /// J_i, kg·m².
+    moments: Vector<N>,
+    /// At the start of the step, world frame.
+    momentum_at_start: Bivector<N>,
+    torque: Bivector<N>,
+    /// The part of the scaled change of angular velocity that no impulse made.
+    precession: [Real; MAX_PLANES],
+}
+
+impl<const N: usize> Gyro<N> {
+    pub(crate) fn new(
+        body: usize,
+        world_from_principal: Rotation<N>,
+        moments: Vector<N>,
+        momentum: Bivector<N>,
+        torque: Bivector<N>,
+    ) -> Self {
+        Self { body, world_from_principal, moments, momentum_at_start: momentum, torque, precession: [0.0; MAX_PLANES] }
+    }
+
+    /// Angular momentum now, world frame: that at the start, the torque's share, and the impulses'.
+    pub(crate) fn momentum(&self, body: &SolverBody<N>, state: &[Real], elapsed: f64) -> Bivector<N> {
+        let row = self.body * Sizes::<N>::STATE + N;
+        let mut impulses = [0.0; MAX_PLANES];
+        for k in 0..Sizes::<N>::K {
+            impulses[k] = state[row + k] - self.precession[k];
+        }
+        self.momentum_at_start + self.torque * elapsed + body.momentum_of(&impulses[..Sizes::<N>::K])
+    }
+
+    /// Turns the attitude through one substep of length `h`; `elapsed` is the time of the step at its end.
+    pub(crate) fn turn(&mut self, body: &SolverBody<N>, state: &mut [Real], h: f64, elapsed: f64) {
+        let momentum = self.momentum(body, state, elapsed);
+        free_rotation_step(&mut self.world_from_principal, &momentum, &self.moments, h);
+        let local = self.world_from_principal.inverse_rotate_bivector(&momentum);
+        let local_velocity = local.scale_planes(|i, j| 1.0 / (self.moments[i] + self.moments[j]));
+        let velocity = self.world_from_principal.rotate_bivector(&local_velocity);
+        let wanted = body.scaled_velocity(&(velocity - body.angular_velocity - body.angular_acceleration * elapsed));
+        let row = self.body * Sizes::<N>::STATE + N;
+        for k in 0..planes::count(N) {
+            // Impulses are what is not precession: exactly zero as long as nothing touches the body.
+            let impulse = state[row + k] - self.precession[k];
+            self.precession[k] = wanted[k] - impulse;
+            state[row + k] = self.precession[k] + impulse;
+        }
+    }
+}

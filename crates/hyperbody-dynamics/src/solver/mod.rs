@@ -1,0 +1,351 @@
+//! Contacts and joints become impulses: soft constraints in substeps.
+//!
+//! A step is divided into substeps of length h; each integrates velocities, applies the impulses of the last substep
+//! again (warm start), solves all rows once with overlap pushed apart softly, integrates positions, and solves once more
+//! without the push, so that the push leaves no speed behind (E. Catto, "Solver2D", 2024; the form that Box2D and Rapier
+//! use too). Contact rows are made once a step, and gaps follow linearly within it.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `bodies` | the scaled velocities that rows work on |
+//! | `colours` | which contacts are solved side by side |
+//! | `contacts` | contact rows and the passes over them |
+//! | `joints` | joint rows |
+//! | `gyro` | free rotation of anisotropic bodies within the step |
+//! | `softness`, `lanes` | soft coefficients; vectors of contacts |
+
+pub(crate) mod bodies;
+mod colours;
+mod contacts;
+mod gyro;
+mod joints;
+mod lanes;
+mod softness;
+
+use hyperbody_math::Vector;
+use rayon::prelude::*;
+
+use crate::BodyKind;
+use crate::body::Body;
+use crate::handle::Arena;
+use crate::joint::Joint;
+use crate::pairs::Pairs;
+use crate::{BodyHandle, JointHandle, Tuning};
+use bodies::{Sizes, SolverBody};
+use colours::{ActiveContact, Colours, Group};
+use contacts::{ContactRows, Layout, PassTimes, Passes, Prepare};
+use gyro::Gyro;
+use joints::JointRows;
+pub(crate) use lanes::Real;
+use softness::Softness;
+
+/// Buffers of the solver, kept from step to step so that a settled step allocates nothing.
+pub(crate) struct Solver<const N: usize> {
+    /// Row 0 is not used by any body.
+    pub(crate) bodies: Vec<SolverBody<N>>,
+    /// [`Sizes::STATE`] numbers a body: scaled change of velocity, scaled displacement by it.
+    pub(crate) state: Vec<Real>,
+    pub(crate) gyros: Vec<Gyro<N>>,
+    damped: Vec<Damped>,
+    active: Vec<ActiveContact>,
+    colours: Colours,
+    contacts: ContactRows,
+    joints: Vec<JointRows<N>>,
+    arch: pulp::Arch,
+}
+
+/// A body whose velocity dies away.
+#[derive(Clone, Copy, Debug)]
+struct Damped {
+    body: usize,
+    /// Factors on velocity and angular velocity a substep.
+    linear: f64,
+    angular: f64,
+}
+
+/// What the solver takes from the world.
+pub(crate) struct SolverInput<'a, const N: usize> {
+    pub(crate) bodies: &'a mut Arena<Body<N>, BodyHandle>,
+    pub(crate) pairs: &'a mut Pairs<N>,
+    pub(crate) joints: &'a mut Arena<Joint<N>, JointHandle>,
+    pub(crate) gravity: Vector<N>,
+    pub(crate) tuning: &'a Tuning,
+    pub(crate) dt: f64,
+    pub(crate) substeps: u32,
+    pub(crate) pool: Option<&'a rayon::ThreadPool>,
+}
+
+impl<const N: usize> Solver<N> {
+    pub(crate) fn new() -> Self {
+        Self {
+            bodies: Vec::new(),
+            state: Vec::new(),
+            gyros: Vec::new(),
+            damped: Vec::new(),
+            active: Vec::new(),
+            colours: Colours::default(),
+            contacts: ContactRows::default(),
+            joints: Vec::new(),
+            arch: pulp::Arch::new(),
+        }
+    }
+
+    /// Solves one step; the results stand in `state` and `gyros` for the integration.
+    pub(crate) fn solve(&mut self, input: &mut SolverInput<'_, N>) {
+        let h = input.dt / f64::from(input.substeps);
+        self.collect_bodies(input, h);
+        self.collect_contacts(input);
+        self.make_rows(input, h);
+        self.collect_joints(input);
+        self.run_substeps(input, h);
+        self.store_impulses(input);
+    }
+
+    fn collect_bodies(&mut self, input: &mut SolverInput<'_, N>, h: f64) {
+        self.bodies.clear();
+        self.gyros.clear();
+        self.damped.clear();
+        for slot in 0..input.bodies.slot_count() {
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+            let slot = slot as u32;
+            let Some(body) = input.bodies.at_mut(slot) else { continue };
+            body.solver_index = 0;
+            // Row 0 belongs to no one: whoever is not moved by impulses points at it.
+            if self.bodies.is_empty() {
+                self.bodies.push(SolverBody::immovable(body));
+            }
+            if !body.is_moving() {
+                if body.kind == BodyKind::Kinematic && !body.quarantined {
+                    self.push_body(body, SolverBody::immovable);
+                }
+                continue;
+            }
+            self.push_body(body, |body| SolverBody::dynamic(slot, body, input.gravity));
+            let row = self.bodies.len() - 1;
+            if let Some(frame) = self.bodies[row].frame {
+                let inertia = &body.inertia;
+                self.gyros.push(Gyro::new(row, frame, inertia.moments, body.angular_momentum, body.torque));
+            }
+            if body.linear_damping > 0.0 || body.angular_damping > 0.0 {
+                let factor = |rate: f64| 1.0 / (1.0 + h * rate);
+                let (linear, angular) = (factor(body.linear_damping), factor(body.angular_damping));
+                self.damped.push(Damped { body: row, linear, angular });
+            }
+        }
+        if let Some(first) = self.bodies.first_mut() {
+            first.velocity = Vector::ZERO;
+            first.angular_velocity = hyperbody_math::Bivector::ZERO;
+            first.slot = u32::MAX;
+            first.inverse_sqrt_mass = 0.0;
+        }
+        self.state.clear();
+        self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
+    }
+
+    fn push_body(&mut self, body: &mut Body<N>, make: impl Fn(&Body<N>) -> SolverBody<N>) {
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+        let row = self.bodies.len() as u32;
+        body.solver_index = row;
+        self.bodies.push(make(body));
+    }
+
+    /// Pairs with points and at least one body that impulses move, in the order of their slots.
+    fn collect_contacts(&mut self, input: &SolverInput<'_, N>) {
+        self.active.clear();
+        for (slot, pair) in input.pairs.slots().iter().enumerate() {
+            let Some(pair) = pair else { continue };
+            let points = pair.manifold.points().len();
+            if points == 0 {
+                continue;
+            }
+            let (Some(a), Some(b)) = (input.bodies.at(pair.body_a), input.bodies.at(pair.body_b)) else { continue };
+            if a.is_moving() || b.is_moving() {
+                #[expect(clippy::cast_possible_truncation, reason = "slots and points are small")]
+                let (pair, points) = (slot as u32, points as u8);
+                let (body_a, body_b) = (a.solver_index, b.solver_index);
+                self.active.push(ActiveContact { pair, body_a, body_b, points });
+            }
+        }
+        let bodies = &self.bodies;
+        self.colours.assign(&self.active, bodies.len(), |body| bodies[body as usize].inverse_sqrt_mass > 0.0);
+    }
+
+    fn make_rows(&mut self, input: &SolverInput<'_, N>, h: f64) {
+        let tuning = input.tuning;
+        let bounces = |pair: u32| input.pairs.get(pair).is_some_and(|pair| pair.restitution > 0.0);
+        self.contacts.allocate(&self.colours.groups, &self.active, bounces, &self.bodies);
+        let prepare = Prepare {
+            soft: Softness::new(tuning.contact_hz, tuning.contact_damping_ratio, h),
+            stiff: Softness::new(2.0 * tuning.contact_hz, tuning.contact_damping_ratio, h),
+        };
+        let (bodies, active, pairs) = (&self.bodies, &self.active, &*input.pairs);
+        let fill = |block: &contacts::Block, rows: &mut [lanes::Lanes]| {
+            for (lane, &index) in block.contacts.iter().enumerate() {
+                if index == Group::EMPTY {
+                    continue;
+                }
+                let contact = &active[index as usize];
+                let Some(pair) = pairs.get(contact.pair) else { continue };
+                let (a, b) = (side(bodies, contact.body_a), side(bodies, contact.body_b));
+                let (a, b) = (a.unwrap_or_else(|| resting_at(pair)), b.unwrap_or_else(|| resting_at(pair)));
+                prepare.fill(block, rows, lane, pair, &a, &b);
+            }
+        };
+        let mut rest = self.contacts.rows.as_mut_slice();
+        let mut jobs = Vec::with_capacity(if input.pool.is_some() { self.contacts.blocks.len() } else { 0 });
+        for block in &self.contacts.blocks {
+            let (rows, tail) = rest.split_at_mut(Layout::<N>::block_len(block));
+            rest = tail;
+            if input.pool.is_some() {
+                jobs.push((block, rows));
+            } else {
+                fill(block, rows);
+            }
+        }
+        if let Some(pool) = input.pool {
+            pool.install(|| jobs.into_par_iter().with_min_len(16).for_each(|(block, rows)| fill(block, rows)));
+        }
+    }
+
+    fn collect_joints(&mut self, input: &SolverInput<'_, N>) {
+        self.joints.clear();
+        for (handle, joint) in input.joints.iter() {
+            let (Some(a), Some(b)) = (input.bodies.at(joint.body_a), input.bodies.at(joint.body_b)) else { continue };
+            if !(a.is_moving() || b.is_moving()) || a.quarantined || b.quarantined {
+                continue;
+            }
+            let mut end = |body: &Body<N>, arm: Vector<N>| {
+                let mut row = body.solver_index as usize;
+                if row == 0 {
+                    // Static bodies have no row of their own until a joint needs their place.
+                    row = self.bodies.len();
+                    self.bodies.push(SolverBody::immovable(body));
+                    self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
+                }
+                (row, body.rotation.rotate(arm))
+            };
+            let (end_a, end_b) = (end(a, joint.arm_a), end(b, joint.arm_b));
+            self.joints.push(JointRows::new(handle.index, joint, end_a, end_b));
+        }
+    }
+
+    fn run_substeps(&mut self, input: &SolverInput<'_, N>, h: f64) {
+        let tuning = input.tuning;
+        let joint_soft = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
+        let arch = self.arch;
+        for substep in 0..input.substeps {
+            let mut times = pass_times(substep, h, tuning);
+            self.damp(h * f64::from(substep + 1));
+            for joint in &mut self.joints {
+                joint.refresh(&self.bodies, &self.state, &times);
+                joint.warm_start(&self.bodies, &mut self.state);
+            }
+            arch.dispatch(|| Passes::<N>::warm_start(&mut self.contacts, &mut self.state));
+            for joint in &mut self.joints {
+                joint.solve(&self.bodies, &mut self.state, Some(&joint_soft));
+            }
+            arch.dispatch(|| Passes::<N>::solve(&mut self.contacts, &mut self.state, &times));
+            self.move_bodies(h, h * f64::from(substep + 1));
+            times = PassTimes { push: false, ..after_move(times, substep, h) };
+            for joint in &mut self.joints {
+                joint.solve(&self.bodies, &mut self.state, None);
+            }
+            arch.dispatch(|| Passes::<N>::solve(&mut self.contacts, &mut self.state, &times));
+            if substep + 1 == input.substeps {
+                arch.dispatch(|| Passes::<N>::bounce(&mut self.contacts, &mut self.state, &times));
+            }
+        }
+    }
+
+    /// Lets the velocities of damped bodies die away: v' = v/(1 + h·rate), base part included.
+    fn damp(&mut self, elapsed: f64) {
+        for damped in &self.damped {
+            let body = &self.bodies[damped.body];
+            let row = damped.body * Sizes::<N>::STATE;
+            let state = &mut self.state[row..row + Sizes::<N>::VELOCITY];
+            for i in 0..N {
+                let base = (body.velocity[i] + body.acceleration[i] * elapsed) / body.inverse_sqrt_mass;
+                let whole = base + f64::from(state[i]);
+                state[i] += (whole * (damped.linear - 1.0)) as Real;
+            }
+            let base = body.scaled_velocity(&(body.angular_velocity + body.angular_acceleration * elapsed));
+            for k in 0..Sizes::<N>::K {
+                state[N + k] += (base[k] + state[N + k]) * (damped.angular - 1.0) as Real;
+            }
+        }
+    }
+
+    /// Displaces all bodies by their changes of velocity, and turns anisotropic ones.
+    fn move_bodies(&mut self, h: f64, elapsed: f64) {
+        let step = h as Real;
+        for row in self.state.chunks_exact_mut(Sizes::<N>::STATE) {
+            let (velocity, displacement) = row.split_at_mut(Sizes::<N>::VELOCITY);
+            for (d, v) in displacement.iter_mut().zip(velocity) {
+                *d += step * *v;
+            }
+        }
+        for gyro in &mut self.gyros {
+            gyro.turn(&self.bodies[gyro.body], &mut self.state, h, elapsed);
+        }
+    }
+
+    fn store_impulses(&mut self, input: &mut SolverInput<'_, N>) {
+        for block in &self.contacts.blocks {
+            let rows = &self.contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
+            for (lane, &index) in block.contacts.iter().enumerate() {
+                if index == Group::EMPTY {
+                    continue;
+                }
+                if let Some(pair) = input.pairs.get_mut(self.active[index as usize].pair) {
+                    contacts::store(block, rows, lane, pair);
+                }
+            }
+        }
+        for joint in &self.joints {
+            if let Some(stored) = input.joints.at_mut(joint.slot) {
+                stored.impulse = joint.impulse;
+            }
+        }
+    }
+}
+
+/// The body of a row, or `None` for row 0.
+fn side<const N: usize>(bodies: &[SolverBody<N>], row: u32) -> Option<SolverBody<N>> {
+    (row != 0).then(|| bodies[row as usize])
+}
+
+/// A body that nothing moves, seen from one of its contacts: its offsets don't matter.
+fn resting_at<const N: usize>(pair: &crate::pairs::Pair<N>) -> SolverBody<N> {
+    SolverBody {
+        slot: u32::MAX,
+        inverse_sqrt_mass: 0.0,
+        frame: None,
+        inverse_sqrt_moments: [0.0; bodies::MAX_PLANES],
+        centre: pair.manifold.points().first().map_or(Vector::ZERO, |point| point.position),
+        velocity: Vector::ZERO,
+        angular_velocity: hyperbody_math::Bivector::ZERO,
+        acceleration: Vector::ZERO,
+        angular_acceleration: hyperbody_math::Bivector::ZERO,
+    }
+}
+
+/// Times of the pass before positions move in a substep.
+fn pass_times(substep: u32, h: f64, tuning: &Tuning) -> PassTimes {
+    let k = f64::from(substep);
+    PassTimes {
+        elapsed: (h * (k + 1.0)) as Real,
+        moved: (h * k) as Real,
+        moved_sq: (h * h * k * (k + 1.0) * 0.5) as Real,
+        inverse_h: (1.0 / h) as Real,
+        push: true,
+        slop: tuning.slop as Real,
+        push_out_speed: tuning.push_out_speed as Real,
+        restitution_threshold: tuning.restitution_threshold as Real,
+    }
+}
+
+/// Times of the pass after positions moved.
+fn after_move(times: PassTimes, substep: u32, h: f64) -> PassTimes {
+    let k = f64::from(substep + 1);
+    PassTimes { moved: (h * k) as Real, moved_sq: (h * h * k * (k + 1.0) * 0.5) as Real, ..times }
+}

@@ -1,0 +1,412 @@
+//! The world: what goes in, what can be asked.
+
+use hyperbody_collision::{DynamicTree, Scratch};
+use hyperbody_geometry::Aabb;
+use hyperbody_geometry::shape::Piece;
+use hyperbody_math::{Pose, Vector};
+
+use crate::body::Body;
+use crate::handle::Arena;
+use crate::islands::Islands;
+use crate::joint::Joint;
+use crate::pairs::Pairs;
+use crate::solver::Solver;
+use crate::{
+    BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, JointDef, JointHandle, StageTimings, Tuning, WorldError,
+    WorldErrorKind,
+};
+
+/// Everything needed to make a world.
+#[derive(Clone, Debug)]
+pub struct WorldDef<const N: usize> {
+    /// m/s². Default: 9.81 downwards along the second axis.
+    pub gravity: Vector<N>,
+    /// Length of a step in seconds, 1e-6..=1. Default 1/60.
+    pub dt: f64,
+    /// Parts into which the solver divides a step, 1..=64. Default 4. More make stacks stiffer, at proportional cost.
+    pub substeps: u32,
+    /// Whether bodies at rest may fall asleep. Default true.
+    pub sleeping: bool,
+    /// Threads, 1..=256. Default 1. The results are the same bits for every number.
+    pub threads: usize,
+    /// See [`Tuning`].
+    pub tuning: Tuning,
+}
+
+impl<const N: usize> Default for WorldDef<N> {
+    fn default() -> Self {
+        Self {
+            gravity: Vector::from_fn(|i| if i == 1 { -9.81 } else { 0.0 }),
+            dt: 1.0 / 60.0,
+            substeps: 4,
+            sleeping: true,
+            threads: 1,
+            tuning: Tuning::default(),
+        }
+    }
+}
+
+/// A convex piece of a body, as collision sees it.
+#[derive(Clone, Debug)]
+pub(crate) struct Collider<const N: usize> {
+    pub(crate) body: u32,
+    pub(crate) piece: Piece<N>,
+    pub(crate) body_from_collider: Pose<N>,
+    /// At the start of the current step.
+    pub(crate) world_from_collider: Pose<N>,
+    /// In the tree; `None` for half-spaces, which are unbounded and kept in a list.
+    pub(crate) proxy: Option<u32>,
+    /// The fattened box that the tree holds.
+    pub(crate) fat_aabb: Aabb<N>,
+    /// Its pairs must be looked for: new, or out of its fattened box.
+    pub(crate) moved: bool,
+}
+
+/// Bodies, joints, and the law that moves them, in `N` dimensions.
+pub struct World<const N: usize> {
+    pub(crate) gravity: Vector<N>,
+    pub(crate) dt: f64,
+    pub(crate) substeps: u32,
+    pub(crate) sleeping: bool,
+    pub(crate) tuning: Tuning,
+
+    pub(crate) bodies: Arena<Body<N>, BodyHandle>,
+    pub(crate) joints: Arena<Joint<N>, JointHandle>,
+    pub(crate) colliders: Vec<Option<Collider<N>>>,
+    pub(crate) free_colliders: Vec<u32>,
+    /// Slots of half-space colliders, ascending.
+    pub(crate) half_spaces: Vec<u32>,
+    pub(crate) tree: DynamicTree<N>,
+    pub(crate) pairs: Pairs<N>,
+    pub(crate) islands: Islands,
+
+    pub(crate) step_count: u64,
+    pub(crate) max_penetration: f64,
+    pub(crate) contact_count: usize,
+    pub(crate) quarantined: Vec<BodyHandle>,
+    /// Slots of bodies to wake at the start of the next step.
+    pub(crate) wake_requests: Vec<u32>,
+    pub(crate) timings: StageTimings,
+    pub(crate) clock: Option<fn() -> f64>,
+
+    pub(crate) pool: Option<rayon::ThreadPool>,
+    pub(crate) solver: Solver<N>,
+    pub(crate) scratch: Vec<Scratch<N>>,
+    pub(crate) tree_stack: Vec<u32>,
+    /// Buffer of the broad phase.
+    pub(crate) new_pairs: Vec<(u32, u32)>,
+}
+
+impl<const N: usize> World<N> {
+    /// An empty world.
+    ///
+    /// # Errors
+    /// If a number of the definition is outside its range, or the threads cannot be started.
+    pub fn new(def: WorldDef<N>) -> Result<Self, WorldError> {
+        const { assert!(N >= 2 && N <= 6, "worlds have two to six dimensions") };
+        if !def.gravity.is_finite() {
+            return Err(WorldError::bad_number(format!("gravity is {:?}; it must be finite", def.gravity.0)));
+        }
+        if !(1e-6..=1.0).contains(&def.dt) {
+            return Err(WorldError::bad_number(format!("dt is {} s; it must lie between 1e-6 and 1", def.dt)));
+        }
+        if !(1..=64).contains(&def.substeps) {
+            return Err(WorldError::bad_number(format!("substeps is {}; it must lie between 1 and 64", def.substeps)));
+        }
+        if !(1..=256).contains(&def.threads) {
+            return Err(WorldError::bad_number(format!("threads is {}; it must lie between 1 and 256", def.threads)));
+        }
+        def.tuning.validate()?;
+        let pool = if def.threads > 1 {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(def.threads).build();
+            Some(pool.map_err(|error| {
+                WorldError::new(WorldErrorKind::NotAllowed, format!("{} threads: {error}", def.threads))
+            })?)
+        } else {
+            None
+        };
+        Ok(Self {
+            gravity: def.gravity,
+            dt: def.dt,
+            substeps: def.substeps,
+            sleeping: def.sleeping,
+            tuning: def.tuning,
+            bodies: Arena::new(),
+            joints: Arena::new(),
+            colliders: Vec::new(),
+            free_colliders: Vec::new(),
+            half_spaces: Vec::new(),
+            tree: DynamicTree::new(),
+            pairs: Pairs::new(),
+            islands: Islands::new(),
+            step_count: 0,
+            max_penetration: 0.0,
+            contact_count: 0,
+            quarantined: Vec::new(),
+            wake_requests: Vec::new(),
+            timings: StageTimings::default(),
+            clock: None,
+            pool,
+            solver: Solver::new(),
+            scratch: (0..def.threads).map(|_| Scratch::default()).collect(),
+            tree_stack: Vec::new(),
+            new_pairs: Vec::new(),
+        })
+    }
+
+    /// Adds a body.
+    ///
+    /// # Errors
+    /// If the definition is not valid (see [`BodyDef`]); nothing is added then.
+    pub fn add_body(&mut self, def: BodyDef<N>) -> Result<BodyHandle, WorldError> {
+        let mut body = Body::new(def)?;
+        let pieces = body.shape.pieces();
+        body.radius = reach(&pieces, body.centre_in_body);
+        let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for bodies");
+        let handle = self.bodies.insert(body).map_err(|_| full())?;
+        for (body_from_collider, piece) in pieces {
+            self.add_collider(handle.index, body_from_collider, piece);
+        }
+        Ok(handle)
+    }
+
+    fn add_collider(&mut self, body_slot: u32, body_from_collider: Pose<N>, piece: Piece<N>) {
+        let Some(body) = self.bodies.at_mut(body_slot) else { return };
+        let slot = self.free_colliders.pop().unwrap_or_else(|| {
+            self.colliders.push(None);
+            #[expect(clippy::cast_possible_truncation, reason = "fewer colliders than fit into memory")]
+            let last = (self.colliders.len() - 1) as u32;
+            last
+        });
+        body.colliders.push(slot);
+        let world_from_collider = body.world_from_body() * body_from_collider;
+        let (fat_aabb, proxy) = match &piece {
+            Piece::Convex(convex) => {
+                let aabb = convex.aabb(&world_from_collider).grown(self.tuning.tree_margin);
+                (aabb, Some(self.tree.insert(aabb, slot)))
+            }
+            Piece::HalfSpace { .. } => {
+                let position = self.half_spaces.partition_point(|&other| other < slot);
+                self.half_spaces.insert(position, slot);
+                (Aabb { lower: Vector::ZERO, upper: Vector::ZERO }, None)
+            }
+        };
+        self.colliders[slot as usize] = Some(Collider {
+            body: body_slot,
+            piece,
+            body_from_collider,
+            world_from_collider,
+            proxy,
+            fat_aabb,
+            moved: true,
+        });
+    }
+
+    /// Removes a body with its joints and contacts; what rested on it wakes.
+    ///
+    /// # Errors
+    /// If there is no such body.
+    pub fn remove_body(&mut self, handle: BodyHandle) -> Result<(), WorldError> {
+        let Some(body) = self.bodies.get(handle) else { return Err(stale("body")) };
+        let joints: Vec<JointHandle> = body.joints.iter().filter_map(|&slot| self.joints.handle_at(slot)).collect();
+        for joint in joints {
+            self.remove_joint(joint)?;
+        }
+        for pair in self.pairs.iter() {
+            if pair.body_a == handle.index {
+                self.wake_requests.push(pair.body_b);
+            } else if pair.body_b == handle.index {
+                self.wake_requests.push(pair.body_a);
+            }
+        }
+        self.pairs.retain(|pair| pair.body_a != handle.index && pair.body_b != handle.index);
+        self.islands.wake_body(handle.index, &mut self.bodies);
+        let Some(body) = self.bodies.remove(handle) else { return Err(stale("body")) };
+        for slot in body.colliders {
+            if let Some(collider) = self.colliders[slot as usize].take() {
+                match collider.proxy {
+                    Some(proxy) => self.tree.remove(proxy),
+                    None => self.half_spaces.retain(|&other| other != slot),
+                }
+            }
+            self.free_colliders.push(slot);
+        }
+        self.quarantined.retain(|&other| other != handle);
+        Ok(())
+    }
+
+    /// Ties two bodies together. They no longer collide with each other, and both wake.
+    ///
+    /// # Errors
+    /// If a handle is stale, both are the same body, neither is dynamic, or a number is not finite.
+    pub fn add_joint(&mut self, def: JointDef<N>) -> Result<JointHandle, WorldError> {
+        def.validate()?;
+        let (a, b) = def.bodies();
+        if a == b {
+            return Err(WorldError::new(WorldErrorKind::NotAllowed, "a joint needs two different bodies"));
+        }
+        let (Some(body_a), Some(body_b)) = (self.bodies.get(a), self.bodies.get(b)) else { return Err(stale("body")) };
+        if body_a.kind != BodyKind::Dynamic && body_b.kind != BodyKind::Dynamic {
+            return Err(WorldError::new(
+                WorldErrorKind::NotAllowed,
+                "a joint between two bodies that no impulse moves has nothing to do; make one of them dynamic",
+            ));
+        }
+        let JointDef::Ball { anchor_a, anchor_b, .. } = def;
+        let joint = Joint {
+            body_a: a.index,
+            body_b: b.index,
+            arm_a: anchor_a - body_a.centre_in_body,
+            arm_b: anchor_b - body_b.centre_in_body,
+            impulse: Vector::ZERO,
+        };
+        let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for joints");
+        let handle = self.joints.insert(joint).map_err(|_| full())?;
+        for slot in [a.index, b.index] {
+            if let Some(body) = self.bodies.at_mut(slot) {
+                let position = body.joints.partition_point(|&other| other < handle.index);
+                body.joints.insert(position, handle.index);
+            }
+            self.wake_requests.push(slot);
+        }
+        self.pairs.retain(|pair| !is_pair_of(pair.body_a, pair.body_b, a.index, b.index));
+        Ok(handle)
+    }
+
+    /// Unties two bodies; both wake, and may collide again.
+    ///
+    /// # Errors
+    /// If there is no such joint.
+    pub fn remove_joint(&mut self, handle: JointHandle) -> Result<(), WorldError> {
+        let Some(joint) = self.joints.remove(handle) else { return Err(stale("joint")) };
+        for slot in [joint.body_a, joint.body_b] {
+            let Some(body) = self.bodies.at_mut(slot) else { continue };
+            body.joints.retain(|&other| other != handle.index);
+            for &collider in &body.colliders {
+                if let Some(collider) = &mut self.colliders[collider as usize] {
+                    collider.moved = true;
+                }
+            }
+            self.wake_requests.push(slot);
+        }
+        Ok(())
+    }
+
+    /// A body to read, or `None` if the handle is stale.
+    #[must_use]
+    pub fn body(&self, handle: BodyHandle) -> Option<BodyRef<'_, N>> {
+        self.bodies.get(handle).map(|body| BodyRef { body })
+    }
+
+    /// A body to change, or `None` if the handle is stale.
+    #[must_use]
+    pub fn body_mut(&mut self, handle: BodyHandle) -> Option<BodyMut<'_, N>> {
+        let body = self.bodies.get_mut(handle)?;
+        Some(BodyMut { body, wake: &mut self.wake_requests, slot: handle.index })
+    }
+
+    /// All bodies in the order of their slots.
+    pub fn bodies(&self) -> impl Iterator<Item = (BodyHandle, BodyRef<'_, N>)> {
+        self.bodies.iter().map(|(handle, body)| (handle, BodyRef { body }))
+    }
+
+    /// Number of bodies.
+    #[must_use]
+    pub fn body_count(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Number of joints.
+    #[must_use]
+    pub fn joint_count(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// Gravity, m/s².
+    #[must_use]
+    pub fn gravity(&self) -> Vector<N> {
+        self.gravity
+    }
+
+    /// Sets gravity, m/s², and wakes everything.
+    ///
+    /// # Errors
+    /// If it is not finite.
+    pub fn set_gravity(&mut self, gravity: impl Into<Vector<N>>) -> Result<(), WorldError> {
+        let gravity = gravity.into();
+        if !gravity.is_finite() {
+            return Err(WorldError::bad_number(format!("gravity is {:?}; it must be finite", gravity.0)));
+        }
+        self.gravity = gravity;
+        self.islands.wake_all(&mut self.bodies);
+        Ok(())
+    }
+
+    /// Length of a step, s.
+    #[must_use]
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Number of steps taken.
+    #[must_use]
+    pub fn step_count(&self) -> u64 {
+        self.step_count
+    }
+
+    /// Simulated time, s: steps taken times their length.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.step_count as f64 * self.dt
+    }
+
+    /// Number of contact points that touched (separation ≤ 0) when the last step looked.
+    #[must_use]
+    pub fn contact_count(&self) -> usize {
+        self.contact_count
+    }
+
+    /// Deepest overlap of two bodies that the last step found at its start, m.
+    #[must_use]
+    pub fn max_penetration(&self) -> f64 {
+        self.max_penetration
+    }
+
+    /// Bodies whose state turned non-finite, in the order in which it happened. They stay where they last were, out
+    /// of the simulation, until they are given a new pose or removed.
+    #[must_use]
+    pub fn quarantined(&self) -> &[BodyHandle] {
+        &self.quarantined
+    }
+
+    /// Sets the clock, in seconds, that stage timings are taken with; `None` takes none. The crate reads no clock of
+    /// its own, so that it runs where there is none.
+    pub fn set_clock(&mut self, clock: Option<fn() -> f64>) {
+        self.clock = clock;
+    }
+
+    /// Where the time of the last step went.
+    #[must_use]
+    pub fn timings(&self) -> StageTimings {
+        self.timings
+    }
+}
+
+pub(crate) fn is_pair_of(pair_a: u32, pair_b: u32, a: u32, b: u32) -> bool {
+    (pair_a == a && pair_b == b) || (pair_a == b && pair_b == a)
+}
+
+/// Largest distance of a point of the pieces from `centre`, all in the body's frame.
+fn reach<const N: usize>(pieces: &[(Pose<N>, Piece<N>)], centre: Vector<N>) -> f64 {
+    pieces.iter().fold(0.0, |reach, (pose, piece)| match piece {
+        Piece::Convex(convex) => f64::max(reach, pose.translation.distance(centre) + convex.bounding_radius()),
+        Piece::HalfSpace { .. } => reach,
+    })
+}
+
+fn stale(what: &str) -> WorldError {
+    WorldError::new(
+        WorldErrorKind::StaleHandle,
+        format!("there is no such {what} in this world: it was removed, or the handle is of another world"),
+    )
+}
