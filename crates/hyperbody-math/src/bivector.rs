@@ -9,7 +9,7 @@
 
 use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::{Givens, Matrix, Vector, planes};
+use crate::{Givens, InvariantPlanes, Matrix, Vector, planes};
 
 /// A sum of oriented planes; component (i, j) = −component (j, i).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -183,6 +183,13 @@ impl<const N: usize> Bivector<N> {
                 (self.m[j][k], self.m[k][j]) = (b, -b);
             }
         }
+    }
+
+    /// The orthogonal planes that this turns independently of each other, with their numbers in descending order: one
+    /// for a simple bivector, two for a double rotation.
+    #[must_use]
+    pub fn invariant_planes(&self) -> InvariantPlanes<N> {
+        InvariantPlanes::of_bivector(self)
     }
 
     /// Whether every number is finite.

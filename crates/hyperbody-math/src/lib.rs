@@ -9,6 +9,7 @@
 //! | [`givens`] | turns in one coordinate plane |
 //! | [`rotation`] | orthogonal matrices of determinant one |
 //! | [`rotor`] | rotations as even multivectors: 8 numbers in 4D |
+//! | [`invariant`] | the planes that a bivector or rotation turns independently |
 //! | [`pose`] | a rotation followed by a translation |
 //! | [`planes`] | the order of the coordinate planes and the names of the axes |
 //! | [`scalar`] | the only door to transcendental functions, the same bits on every platform |
@@ -19,6 +20,7 @@
 pub mod bivector;
 pub mod eigen;
 pub mod givens;
+pub mod invariant;
 pub mod matrix;
 pub mod planes;
 mod polar;
@@ -31,6 +33,7 @@ pub mod vector;
 pub use bivector::Bivector;
 pub use eigen::symmetric_eigen;
 pub use givens::Givens;
+pub use invariant::InvariantPlanes;
 pub use matrix::Matrix;
 pub use pose::Pose;
 pub use rotation::Rotation;

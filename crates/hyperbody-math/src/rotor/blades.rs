@@ -11,7 +11,7 @@ pub(super) struct Blades<const N: usize>;
 
 /// `GATHER[a][k]` is the (slot, sign) of the one blade b for which blade a times blade b is the blade of slot k, and the
 /// sign of that product.
-type Gather = [[(u8, i8); MAX]; MAX];
+type Gather = [[(u8, f64); MAX]; MAX];
 
 impl<const N: usize> Blades<N> {
     /// How many there are: 2^(N−1).
@@ -41,7 +41,7 @@ impl<const N: usize> Blades<N> {
 
     /// The multiplication table in the order that a product reads it.
     pub(super) const GATHER: Gather = {
-        let mut table = [[(0, 0); MAX]; MAX];
+        let mut table = [[(0, 0.0); MAX]; MAX];
         let mut a = 0;
         while a < Self::COUNT {
             let mut k = 0;
@@ -71,12 +71,12 @@ impl<const N: usize> Blades<N> {
 }
 
 /// The sign of blade a times blade b: one change for every axis of a that has to pass a smaller axis of b.
-const fn product_sign(a: usize, b: usize) -> i8 {
+const fn product_sign(a: usize, b: usize) -> f64 {
     let mut higher = a >> 1;
     let mut swaps = 0;
     while higher != 0 {
         swaps += (higher & b).count_ones();
         higher >>= 1;
     }
-    if swaps % 2 == 0 { 1 } else { -1 }
+    if swaps % 2 == 0 { 1.0 } else { -1.0 }
 }

@@ -18,6 +18,7 @@
 mod blades;
 mod convert;
 mod error;
+mod exponential;
 mod repair;
 
 pub use error::{RotorError, RotorErrorKind};
@@ -245,7 +246,7 @@ where
     for a in rows {
         for k in columns.clone() {
             let (b, sign) = Blades::<N>::GATHER[a][k];
-            out[k] += f64::from(sign) * x[a] * y[usize::from(b)];
+            out[k] += sign * x[a] * y[usize::from(b)];
         }
     }
     product
