@@ -14,10 +14,10 @@ use crate::process::{build_hyperbody, read, root, target_directory};
 pub(crate) struct BenchArguments {
     /// Scene files or names of built-in scenes; all built-in scenes if none is given
     scenes: Vec<String>,
-    /// Steps that are timed
-    #[arg(long, default_value_t = 300)]
+    /// Steps to run
+    #[arg(long, default_value_t = 420)]
     steps: u32,
-    /// Steps before the timed ones
+    /// How many of these, the first ones, to leave out of the figures
     #[arg(long, default_value_t = 120)]
     warmup: u32,
     /// Threads of the solver
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> Outcome {
     let threads = arguments.threads.to_string();
     let mut command = Command::new(program);
     command.arg("bench").args(&arguments.scenes);
-    command.args(["--steps", &steps, "--warmup", &warmup, "--threads", &threads, "--json"]);
+    command.args(["--steps", &steps, "--warmup", &warmup, "--threads", &threads, "--awake", "--json"]);
     let mut figures: Value = serde_json::from_str(&read(&mut command)?)
         .map_err(|error| format!("`hyperbody bench --json` printed no JSON: {error}"))?;
     let commit = commit();

@@ -1,2 +1,34 @@
-//! See ARCHITECTURE.md.
-fn main() {}
+//! The program `hyperbody`: scenes of two to six dimensions from the command line.
+//!
+//! Results go to standard output, everything else to standard error. Exit status: 0 on success, 1 if a run failed, 2 for
+//! bad arguments or bad input.
+
+mod arguments;
+mod bench;
+mod failure;
+mod inspect;
+mod output;
+mod progress;
+mod run;
+mod scenes;
+mod source;
+mod step_times;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Inspect(arguments) => inspect::inspect(&arguments),
+        Command::Bench(arguments) => bench::bench(&arguments),
+        Command::Scenes(arguments) => scenes::scenes(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -20,16 +20,6 @@ use crate::{Bivector, Matrix, Rotation, Vector, scalar, symmetric_eigen};
 const CERTAIN: f64 = 0.7;
 
 /// A bivector or rotation taken apart into orthogonal planes, each turned by its own value.
-///
-/// ```
-/// use hyperbody_math::{Bivector, Vector};
-///
-/// // x ∧ (y + z) is one plane; adding z ∧ w makes it two, at right angles and of different numbers.
-/// let simple = Bivector::<4>::wedge(Vector::unit(0), Vector([0.0, 1.0, 1.0, 0.0]));
-/// assert!(simple.invariant_planes().values()[1].abs() < 1e-15);
-/// let double = (simple + Bivector::plane(2, 3, 1.0)).invariant_planes();
-/// assert!((double.values()[0] * double.values()[1] - 1.0).abs() < 1e-15); // the Pfaffian
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InvariantPlanes<const N: usize> {
     frame: Rotation<N>,

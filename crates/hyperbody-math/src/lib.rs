@@ -10,7 +10,6 @@
 //! | [`rotation`] | orthogonal matrices of determinant one |
 //! | [`rotor`] | rotations as even multivectors: 8 numbers in 4D |
 //! | [`invariant`] | the planes that a bivector or rotation turns independently |
-//! | [`operators`] | the same products as matrices on packed planes |
 //! | [`pose`] | a rotation followed by a translation |
 //! | [`planes`] | the order of the coordinate planes and the names of the axes |
 //! | [`scalar`] | the only door to transcendental functions, the same bits on every platform |
@@ -23,7 +22,6 @@ pub mod eigen;
 pub mod givens;
 pub mod invariant;
 pub mod matrix;
-pub mod operators;
 pub mod planes;
 mod polar;
 pub mod pose;
@@ -37,7 +35,6 @@ pub use eigen::symmetric_eigen;
 pub use givens::Givens;
 pub use invariant::InvariantPlanes;
 pub use matrix::Matrix;
-pub use operators::{BivectorOperator, WedgeOperator};
 pub use pose::Pose;
 pub use rotation::Rotation;
 pub use rotor::{Dim, EvenAlgebra, Rotor, RotorError, RotorErrorKind};

@@ -95,10 +95,10 @@ impl<const N: usize> Matrix<N> {
         result
     }
 
-    /// Largest absolute entry; NaN if an entry is.
+    /// Largest absolute entry.
     #[must_use]
     pub fn max_abs(&self) -> f64 {
-        Vector(self.0.map(|row| Vector(row).max_abs())).max_abs()
+        self.0.iter().fold(0.0, |largest, row| f64::max(largest, Vector(*row).max_abs()))
     }
 
     /// Whether every entry is finite.

@@ -21,9 +21,6 @@ pub fn all(n: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// Name of plane (i, j): `"xw"` for (0, 3).
-///
-/// # Panics
-/// If an axis is not below 6.
 #[must_use]
 pub fn name(i: usize, j: usize) -> String {
     [AXIS_NAMES[i], AXIS_NAMES[j]].iter().collect()
@@ -32,7 +29,7 @@ pub fn name(i: usize, j: usize) -> String {
 /// The axis of a name among the first `n`, or `None`.
 #[must_use]
 pub fn axis_from_name(n: usize, name: char) -> Option<usize> {
-    AXIS_NAMES.iter().take(n).position(|&c| c == name)
+    AXIS_NAMES[..n].iter().position(|&c| c == name)
 }
 
 /// The axes (i, j) of a plane name such as `"xw"` in `n` dimensions. A name in descending order such as `"wx"` gives

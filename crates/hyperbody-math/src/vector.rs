@@ -102,7 +102,7 @@ impl<const N: usize> Vector<N> {
         self.try_normalize().unwrap_or(Self::ZERO)
     }
 
-    /// Largest absolute component; NaN if a component is.
+    /// Largest absolute component.
     #[must_use]
     pub fn max_abs(self) -> f64 {
         self.0.iter().fold(0.0, |largest, c| if c.abs() > largest || c.is_nan() { c.abs() } else { largest })

@@ -1,1 +1,44 @@
-//! See ARCHITECTURE.md.
+//! The scene format, the built-in gallery, and worlds whose dimension is known at run time only.
+//!
+//! A scene goes from text to a [`Scene`], plain data whose keys and types are right, and from there to an [`AnyWorld`],
+//! where every value is checked. Whatever is wrong, one line says where, what, and what would be right.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `model` | [`Scene`], [`Body`], [`ShapeSpec`], …: what a file says |
+//! | `json`, `read`, `write` | text to [`Scene`] and back |
+//! | `build` | [`Scene`] to world |
+//! | `world` | [`AnyWorld`]: a world of two to six dimensions |
+//! | `shape_file` | [`ShapeFile`]: a shape in a file of its own |
+//! | `dimension` | [`visit_dimension`]: the one `match` that turns a number into a type |
+//! | `gallery` | the built-in scenes |
+//! | `jitter` | [`Scene::jitter`]: another history of the same scene |
+//! | `error` | [`SceneError`] |
+//!
+//! The format is described in docs/scene-format.md.
+
+mod build;
+mod dimension;
+mod error;
+mod gallery;
+mod jitter;
+mod json;
+mod model;
+mod off;
+mod read;
+mod shape_file;
+mod world;
+mod write;
+
+pub use build::{MAX_BODIES, MAX_JOINTS, MAX_VERTICES};
+pub use dimension::{DIMENSIONS, DimensionVisitor, visit_dimension};
+pub use error::{ErrorKind, SceneError, nearest};
+pub use gallery::{BUILT_IN, BuiltIn, built_in};
+pub use jitter::JITTER;
+pub use model::{
+    Angle, Body, BodyKind, DEFAULT_DT, DEFAULT_SUBSTEPS, Joint, NamedMaterial, Part, PolytopeSpec, RotationSpec, Scene,
+    ShapeSpec, Size, Turn, default_gravity,
+};
+pub use read::{FORMAT, MAX_FILE_BYTES, VERSION};
+pub use shape_file::ShapeFile;
+pub use world::{AnyWorld, BodyState, Planes};

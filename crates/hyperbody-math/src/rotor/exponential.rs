@@ -13,16 +13,6 @@ where
     /// The rotor reached after one unit of time at the constant angular velocity `b`, the same rotation as
     /// [`crate::Rotation::exp`]: in terms of the algebra e^(−b/2). Simple, double and isoclinic rotations, zero and angles of
     /// any size are all exact to the rounding of `b`. Turns by 2π give −1. NaN if a number is not finite.
-    ///
-    /// ```
-    /// use hyperbody_math::{Bivector, Rotor};
-    ///
-    /// // A double rotation: 1 rad from x to y and at the same time 0.5 rad from z to w.
-    /// let b = Bivector::<4>::from_planes(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.5]).unwrap();
-    /// let rotor = Rotor::exp(&b);
-    /// assert!((rotor.coefficients()[1] + 0.5f64.sin() * 0.25f64.cos()).abs() < 1e-15); // xy, with a minus
-    /// assert!((rotor.log() - b).norm() < 1e-15);
-    /// ```
     #[must_use]
     pub fn exp(b: &Bivector<N>) -> Self {
         Self::from_planes(&b.invariant_planes())

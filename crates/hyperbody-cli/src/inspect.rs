@@ -1,0 +1,38 @@
+//! `hyperbody inspect`: what is in a scene or a shape.
+
+mod scene;
+mod shape;
+
+use std::path::Path;
+
+use hyperbody_scene::{Scene, ShapeFile};
+
+use crate::arguments::InspectArguments;
+use crate::failure::Failure;
+use crate::output::{print, print_json};
+use crate::source;
+
+pub(crate) fn inspect(arguments: &InspectArguments) -> Result<(), Failure> {
+    let path = Path::new(&arguments.file);
+    if path.is_file() && !ShapeFile::holds_scene(path)? {
+        let file = ShapeFile::load(path, arguments.dimension.map(usize::from)).map_err(with_dimension_hint)?;
+        let report = shape::report(&file)?;
+        return if arguments.json { print_json(&report) } else { print(shape::as_text(&report, &arguments.file)) };
+    }
+    let scene: Scene = source::scene(&arguments.file)?;
+    if let Some(dimension) = arguments.dimension
+        && usize::from(dimension) != scene.dimension
+    {
+        return Err(Failure::Input(format!("{} has {} dimensions, not {dimension}", arguments.file, scene.dimension)));
+    }
+    let report = scene::report(&scene)?;
+    if arguments.json { print_json(&report) } else { print(scene::as_text(&report)) }
+}
+
+fn with_dimension_hint(error: hyperbody_scene::SceneError) -> Failure {
+    let message = error.to_string();
+    if message.contains("does not tell its dimension") {
+        return Failure::Input(format!("{message} (--dimension N)"));
+    }
+    Failure::Input(message)
+}

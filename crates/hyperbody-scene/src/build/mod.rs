@@ -1,0 +1,224 @@
+//! From a [`Scene`] to a world: everything that a scene's values have to satisfy is checked here, for scenes from files
+//! as for those made by programs, and every complaint names its place as in a file.
+
+mod rotation;
+mod shape;
+
+use std::collections::BTreeMap;
+
+use hyperbody::math::{Dim, EvenAlgebra, planes};
+use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, JointDef, Material, Vector, World, WorldDef};
+
+use crate::error::{ErrorKind, SceneError, nearest};
+use crate::model::{Body, Joint, Scene};
+pub use shape::MAX_VERTICES;
+pub(crate) use shape::ShapeBuilder;
+
+pub(crate) type Result<T> = std::result::Result<T, SceneError>;
+
+/// Most bodies of a scene.
+pub const MAX_BODIES: usize = 100_000;
+
+/// Most joints of a scene.
+pub const MAX_JOINTS: usize = 100_000;
+
+/// The world of a scene of `N` dimensions and the handles of its bodies in the order of the scene.
+pub(crate) fn world<const N: usize>(scene: &Scene, threads: usize) -> Result<(World<N>, Vec<BodyHandle>)>
+where
+    Dim<N>: EvenAlgebra,
+{
+    at_most("bodies", scene.bodies.len(), MAX_BODIES)?;
+    at_most("joints", scene.joints.len(), MAX_JOINTS)?;
+    let def = WorldDef {
+        gravity: vector(&scene.gravity, "gravity")?,
+        dt: scene.dt,
+        substeps: scene.substeps,
+        sleeping: scene.sleeping,
+        threads,
+        ..WorldDef::default()
+    };
+    let mut world = World::new(def).map_err(|error| SceneError::value("", error.to_string()))?;
+    let materials = materials(scene)?;
+    let mut shapes = ShapeBuilder::new(scene.folder());
+    let names = names(scene)?;
+    let mut handles = Vec::with_capacity(scene.bodies.len());
+    for (index, body) in scene.bodies.iter().enumerate() {
+        let path = format!("bodies[{index}]");
+        let def = body_def(body, &path, &materials, &mut shapes)?;
+        handles.push(world.add_body(def).map_err(|error| SceneError::value(&path, error.to_string()))?);
+    }
+    for (index, joint) in scene.joints.iter().enumerate() {
+        let path = format!("joints[{index}]");
+        let def = joint_def(joint, &path, &names, &handles)?;
+        world.add_joint(def).map_err(|error| SceneError::value(&path, error.to_string()))?;
+    }
+    Ok((world, handles))
+}
+
+/// The vector of a list with one number per axis.
+pub(crate) fn vector<const N: usize>(numbers: &[f64], path: &str) -> Result<Vector<N>> {
+    let vector = Vector::from_slice(numbers).ok_or_else(|| {
+        let message = format!("has {}, expected {N}, one for each dimension", counted(numbers.len(), "number"));
+        SceneError::value(path, message)
+    })?;
+    match numbers.iter().find(|number| !number.is_finite()) {
+        Some(number) => Err(SceneError::value(path, format!("holds {number}; every number has to be finite"))),
+        None => Ok(vector),
+    }
+}
+
+/// The vector of a list that may be left out.
+pub(crate) fn vector_or_zero<const N: usize>(numbers: &[f64], path: &str) -> Result<Vector<N>> {
+    if numbers.is_empty() { Ok(Vector::ZERO) } else { vector(numbers, path) }
+}
+
+/// The axes of a plane name.
+pub(crate) fn plane<const N: usize>(name: &str, path: &str) -> Result<(usize, usize)> {
+    planes::from_name(N, name).ok_or_else(|| {
+        let known: Vec<String> = planes::all(N).map(|(i, j)| planes::name(i, j)).collect();
+        SceneError::value(path, format!("unknown plane \"{name}\"; in {N} dimensions there are {}", known.join(", ")))
+    })
+}
+
+/// "1 number", "2 numbers".
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+}
+
+fn at_most(path: &str, count: usize, limit: usize) -> Result<()> {
+    if count > limit {
+        return Err(SceneError::value(path, format!("has {count} entries; a scene holds at most {limit}")));
+    }
+    Ok(())
+}
+
+/// The index of every body by its name; those without one are "body N".
+fn names(scene: &Scene) -> Result<BTreeMap<String, usize>> {
+    let mut indices = BTreeMap::new();
+    for (index, name) in scene.body_names().into_iter().enumerate() {
+        if let Some(first) = indices.get(&name) {
+            let message = format!("\"{name}\" is already the name of bodies[{first}]; names have to differ");
+            return Err(SceneError::value(format!("bodies[{index}].name"), message));
+        }
+        indices.insert(name, index);
+    }
+    Ok(indices)
+}
+
+fn materials(scene: &Scene) -> Result<BTreeMap<&str, Material>> {
+    let mut materials = BTreeMap::from([("default", Material::default())]);
+    let mut seen = BTreeMap::new();
+    for (index, named) in scene.materials.iter().enumerate() {
+        let path = format!("materials.{}", named.name);
+        if seen.insert(named.name.as_str(), index).is_some() {
+            return Err(SceneError::value(path, "stands twice; names have to differ"));
+        }
+        let Material { friction, restitution, density } = named.material;
+        let refuse = |key: &str, value: f64, expected: &str| {
+            Err(SceneError::value(format!("{path}.{key}"), format!("is {value}, expected {expected}")))
+        };
+        if !(friction >= 0.0 && friction.is_finite()) {
+            return refuse("friction", friction, "a finite number, 0 or more");
+        }
+        if !(0.0..=1.0).contains(&restitution) {
+            return refuse("restitution", restitution, "a number from 0 (no bounce) to 1 (no loss)");
+        }
+        if !(density > 0.0 && density.is_finite()) {
+            return refuse("density", density, "a finite number above 0");
+        }
+        materials.insert(&named.name, named.material);
+    }
+    Ok(materials)
+}
+
+fn body_def<const N: usize>(
+    body: &Body,
+    path: &str,
+    materials: &BTreeMap<&str, Material>,
+    shapes: &mut ShapeBuilder<'_, N>,
+) -> Result<BodyDef<N>>
+where
+    Dim<N>: EvenAlgebra,
+{
+    let mut material = match &body.material {
+        None => materials["default"],
+        Some(name) => *materials.get(name.as_str()).ok_or_else(|| {
+            let near = nearest(name, materials.keys().copied()).unwrap_or("default");
+            let message = format!("no material is called \"{name}\"; the nearest is \"{near}\"");
+            SceneError::value(format!("{path}.material"), message)
+        })?,
+    };
+    material.density = body.density.unwrap_or(material.density);
+    let mut def = BodyDef::new(shapes.shape(&body.shape, &format!("{path}.shape"))?)
+        .kind(body.kind)
+        .position(vector_or_zero(&body.position, &format!("{path}.position"))?)
+        .rotation(rotation::rotation(&body.rotation, &format!("{path}.rotation"))?)
+        .velocity(vector_or_zero(&body.velocity, &format!("{path}.velocity"))?)
+        .angular_velocity(angular_velocity(&body.angular_velocity, &format!("{path}.angular_velocity"))?)
+        .material(material)
+        .gravity_scale(body.gravity_scale)
+        .linear_damping(body.linear_damping)
+        .angular_damping(body.angular_damping)
+        .can_sleep(body.can_sleep);
+    def.mass = body.mass;
+    if let Some(colour) = body.colour
+        && !colour.iter().all(|part| (0.0..=1.0).contains(part))
+    {
+        let message = format!("is {colour:?}, expected red, green and blue from 0 to 1");
+        return Err(SceneError::value(format!("{path}.colour"), message));
+    }
+    Ok(def)
+}
+
+fn angular_velocity<const N: usize>(rates: &[(String, f64)], path: &str) -> Result<Bivector<N>> {
+    let mut sum = Bivector::ZERO;
+    let mut given = Vec::new();
+    for (name, rate) in rates {
+        let place = format!("{path}.{name}");
+        let (i, j) = plane::<N>(name, &place)?;
+        if !rate.is_finite() {
+            return Err(SceneError::value(place, format!("is {rate}; every number has to be finite")));
+        }
+        let sorted = (i.min(j), i.max(j));
+        if given.contains(&sorted) {
+            let message = format!("the plane {} is given twice; give it once", planes::name(sorted.0, sorted.1));
+            return Err(SceneError::value(place, message));
+        }
+        given.push(sorted);
+        sum.set(i, j, *rate);
+    }
+    Ok(sum)
+}
+
+fn joint_def<const N: usize>(
+    joint: &Joint,
+    path: &str,
+    names: &BTreeMap<String, usize>,
+    handles: &[BodyHandle],
+) -> Result<JointDef<N>> {
+    let Joint::Ball { a, b, anchor_a, anchor_b } = joint;
+    let path = format!("{path}.ball");
+    let body = |name: &String, key: &str| {
+        let index = names.get(name.as_str()).ok_or_else(|| {
+            let near = nearest(name, names.keys().map(String::as_str));
+            let hint =
+                near.map_or_else(|| "there are no bodies".to_owned(), |near| format!("the nearest is \"{near}\""));
+            SceneError::value(format!("{path}.{key}"), format!("no body is called \"{name}\"; {hint}"))
+        })?;
+        Ok(handles[*index])
+    };
+    if a == b {
+        return Err(SceneError::value(&path, format!("ties \"{a}\" to itself; a and b have to differ")));
+    }
+    Ok(JointDef::Ball {
+        a: body(a, "a")?,
+        b: body(b, "b")?,
+        anchor_a: vector_or_zero(anchor_a, &format!("{path}.anchor_a"))?,
+        anchor_b: vector_or_zero(anchor_b, &format!("{path}.anchor_b"))?,
+    })
+}
+
+/// What the geometry refuses, at its place in the scene.
+pub(crate) fn shape_error(path: &str, error: &hyperbody::geometry::GeometryError) -> SceneError {
+    SceneError::new(ErrorKind::Shape, path, error.to_string())
+}

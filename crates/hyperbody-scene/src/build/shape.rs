@@ -1,0 +1,159 @@
+//! Shapes of a scene, with their polytopes shared between bodies that are alike.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path};
+use std::sync::Arc;
+
+use hyperbody::geometry::regular::Regular;
+use hyperbody::math::planes::{AXIS_NAMES, axis_from_name};
+use hyperbody::math::{Dim, EvenAlgebra};
+use hyperbody::prelude::{Polytope, Pose, Shape};
+
+use super::{Result, rotation, shape_error, vector, vector_or_zero};
+use crate::error::{ErrorKind, SceneError};
+use crate::model::{PolytopeSpec, ShapeSpec, Size};
+use crate::off;
+use crate::read::{join, read_text};
+
+/// Most vertices of one polytope: the 120-cell has 600, and the cost of a hull grows fast with their number.
+pub const MAX_VERTICES: usize = 10_000;
+
+/// Most levels of shapes inside shapes: a rounded box in a compound has three.
+const MAX_DEPTH: usize = 8;
+
+/// Largest size of a shape file, bytes.
+const MAX_SHAPE_FILE_BYTES: u64 = 16 << 20;
+
+/// Makes the shapes of one scene.
+pub(crate) struct ShapeBuilder<'a, const N: usize> {
+    folder: Option<&'a Path>,
+    /// Regular polytopes and files that were made already, by what the scene says of them: hundreds of equal dice share
+    /// one polytope.
+    made: BTreeMap<String, Arc<Polytope<N>>>,
+}
+
+impl<'a, const N: usize> ShapeBuilder<'a, N>
+where
+    Dim<N>: EvenAlgebra,
+{
+    /// A builder that looks for files in `folder`.
+    pub(crate) fn new(folder: Option<&'a Path>) -> Self {
+        Self { folder, made: BTreeMap::new() }
+    }
+
+    /// The shape that stands at `path` in the scene.
+    pub(crate) fn shape(&mut self, spec: &ShapeSpec, path: &str) -> Result<Shape<N>> {
+        self.shape_at_depth(spec, path, 0)
+    }
+
+    fn shape_at_depth(&mut self, spec: &ShapeSpec, path: &str, depth: usize) -> Result<Shape<N>> {
+        if depth == MAX_DEPTH {
+            let message = format!("shapes lie in shapes more than {MAX_DEPTH} deep; flatten them");
+            return Err(SceneError::value(path, message));
+        }
+        let path = join(path, spec.key());
+        let refuse = |place: &str| {
+            let place = place.to_owned();
+            move |error| shape_error(&place, &error)
+        };
+        match spec {
+            ShapeSpec::Ball { radius } => Shape::ball(*radius).map_err(refuse(&format!("{path}.radius"))),
+            ShapeSpec::Box { half_extents } => {
+                let place = format!("{path}.half_extents");
+                Shape::cuboid(vector(half_extents, &place)?).map_err(refuse(&place))
+            }
+            ShapeSpec::HalfSpace { normal, offset } => {
+                if !offset.is_finite() {
+                    let message = format!("is {offset}; it has to be finite");
+                    return Err(SceneError::value(format!("{path}.offset"), message));
+                }
+                let normal = vector(normal, &format!("{path}.normal"))?;
+                Shape::half_space(normal, *offset).map_err(refuse(&path))
+            }
+            ShapeSpec::Capsule { half_length, radius, along } => {
+                let along = axis::<N>(along, &format!("{path}.along"))?;
+                Shape::capsule(*half_length, *radius, along).map_err(refuse(&path))
+            }
+            ShapeSpec::Polytope(polytope) => Shape::polytope(self.polytope(polytope, &path)?).map_err(refuse(&path)),
+            ShapeSpec::Rounded { shape, radius } => {
+                let core = self.shape_at_depth(shape, &format!("{path}.shape"), depth + 1)?;
+                Shape::rounded(core, *radius).map_err(refuse(&path))
+            }
+            ShapeSpec::Compound { parts } => {
+                let mut placed = Vec::with_capacity(parts.len());
+                for (index, part) in parts.iter().enumerate() {
+                    let place = format!("{path}.parts[{index}]");
+                    let position = vector_or_zero(&part.position, &format!("{place}.position"))?;
+                    let turn = rotation::rotation(&part.rotation, &format!("{place}.rotation"))?;
+                    let shape = self.shape_at_depth(&part.shape, &format!("{place}.shape"), depth + 1)?;
+                    placed.push((Pose::new(turn, position), shape));
+                }
+                Shape::compound(placed).map_err(refuse(&path))
+            }
+        }
+    }
+
+    fn polytope(&mut self, spec: &PolytopeSpec, path: &str) -> Result<Arc<Polytope<N>>> {
+        let key = match spec {
+            PolytopeSpec::Vertices(vertices) => return hull(vertices, &format!("{path}.vertices")).map(Arc::new),
+            PolytopeSpec::Regular { name, size } => format!("regular {name} {size:?}"),
+            PolytopeSpec::File(file) => format!("file {file}"),
+        };
+        if let Some(made) = self.made.get(&key) {
+            return Ok(Arc::clone(made));
+        }
+        let polytope = match spec {
+            PolytopeSpec::Regular { name, size } => regular(name, *size, path)?,
+            PolytopeSpec::File(file) => {
+                let place = format!("{path}.file");
+                off::polytope(&read_beside(self.folder, file, &place)?, &place)?
+            }
+            PolytopeSpec::Vertices(vertices) => hull(vertices, path)?,
+        };
+        let polytope = Arc::new(polytope);
+        self.made.insert(key, Arc::clone(&polytope));
+        Ok(polytope)
+    }
+}
+
+fn axis<const N: usize>(name: &str, path: &str) -> Result<usize> {
+    let mut letters = name.chars();
+    match (letters.next().and_then(|letter| axis_from_name(N, letter)), letters.next()) {
+        (Some(axis), None) => Ok(axis),
+        _ => {
+            let known: Vec<String> = AXIS_NAMES[..N].iter().map(char::to_string).collect();
+            let message = format!("unknown axis \"{name}\"; in {N} dimensions there are {}", known.join(", "));
+            Err(SceneError::value(path, message))
+        }
+    }
+}
+
+fn hull<const N: usize>(vertices: &[Vec<f64>], path: &str) -> Result<Polytope<N>> {
+    if vertices.len() > MAX_VERTICES {
+        let message = format!("has {} points; at most {MAX_VERTICES} are allowed", vertices.len());
+        return Err(SceneError::value(path, message));
+    }
+    let mut points = Vec::with_capacity(vertices.len());
+    for (index, vertex) in vertices.iter().enumerate() {
+        points.push(vector(vertex, &format!("{path}[{index}]"))?);
+    }
+    Polytope::from_points(&points).map_err(|error| shape_error(path, &error))
+}
+fn regular<const N: usize>(name: &str, size: Size, path: &str) -> Result<Polytope<N>> {
+    let regular = Regular::from_name(N, name).map_err(|error| shape_error(&format!("{path}.regular"), &error))?;
+    regular.polytope(size).map_err(|error| shape_error(path, &error))
+}
+
+/// The text of the file `name`, which has to lie in `folder` or below it: a scene from elsewhere reads nothing else.
+fn read_beside(folder: Option<&Path>, name: &str, path: &str) -> Result<String> {
+    let refuse = |message: String| Err(SceneError::new(ErrorKind::File, path, message));
+    let relative = Path::new(name);
+    if name.is_empty() || !relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        return refuse(format!("\"{name}\" is not the name of a file beside the scene, such as \"shape.off\""));
+    }
+    let Some(folder) = folder else {
+        return refuse(format!("names the file \"{name}\", but the scene lies in no folder; save it as a file first"));
+    };
+    read_text(&folder.join(relative), MAX_SHAPE_FILE_BYTES)
+        .map_err(|error| SceneError::new(ErrorKind::File, path, error.to_string()))
+}

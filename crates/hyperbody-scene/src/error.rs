@@ -1,0 +1,102 @@
+//! What can be wrong with a scene.
+
+use std::error::Error;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Why a scene could not be read or built. The message is one line that says where, what, and what would be right.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    kind: ErrorKind,
+    file: Option<PathBuf>,
+    place: String,
+    message: String,
+}
+
+/// The kinds of [`SceneError`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A file is missing, unreadable or too large.
+    File,
+    /// The text is not JSON; the place is a line and column.
+    Syntax,
+    /// A key is unknown, missing or of the wrong type.
+    Structure,
+    /// A value is outside its range, a list has the wrong length, or a name stands for nothing.
+    Value,
+    /// A shape cannot be made: flat, empty, or of an unknown name.
+    Shape,
+    /// The scene names something that this version cannot do.
+    Unsupported,
+}
+
+impl SceneError {
+    pub(crate) fn new(kind: ErrorKind, place: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { kind, file: None, place: place.into(), message: message.into() }
+    }
+
+    pub(crate) fn structure(place: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Structure, place, message)
+    }
+
+    pub(crate) fn value(place: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Value, place, message)
+    }
+
+    /// The error with the file in which it lies.
+    #[must_use]
+    pub(crate) fn in_file(mut self, file: Option<&Path>) -> Self {
+        if self.file.is_none() {
+            self.file = file.map(Path::to_path_buf);
+        }
+        self
+    }
+
+    /// The kind, for programs.
+    #[must_use]
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
+    }
+
+    /// The file in which the error lies, if the scene came from one.
+    #[must_use]
+    pub fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
+    }
+
+    /// Where in the file: a path such as `bodies[3].shape.box.half_extents`, or a line and column where the text is not
+    /// JSON. Empty where the file as a whole is meant.
+    #[must_use]
+    pub fn place(&self) -> &str {
+        &self.place
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}: ", file.display())?;
+        }
+        if !self.place.is_empty() {
+            write!(f, "{}: ", self.place)?;
+        }
+        f.write_str(&self.message)
+    }
+}
+
+impl Error for SceneError {}
+
+/// The known name that is most like `name`: what a person who mistyped it most likely meant.
+#[must_use]
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = name.to_lowercase();
+    let mut best: Option<(f64, &str)> = None;
+    for candidate in known {
+        let likeness = strsim::jaro_winkler(&lower, &candidate.to_lowercase());
+        if best.is_none_or(|(highest, _)| likeness > highest) {
+            best = Some((likeness, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}

@@ -1,0 +1,11 @@
+//! What a scene file says, as plain data with a dimension known at run time only.
+
+mod body;
+mod rotation;
+mod scene;
+mod shape;
+
+pub use body::{Body, BodyKind, Joint};
+pub use rotation::{Angle, RotationSpec, Turn};
+pub use scene::{DEFAULT_DT, DEFAULT_SUBSTEPS, NamedMaterial, Scene, default_gravity};
+pub use shape::{Part, PolytopeSpec, ShapeSpec, Size};

@@ -1,0 +1,115 @@
+//! Polytopes from OFF files: what the geometry reads, checked for what a body can be.
+
+use std::collections::BTreeMap;
+
+use hyperbody::geometry::off::{OffFile, parse};
+use hyperbody::prelude::Polytope;
+
+use crate::build::shape_error;
+use crate::error::{ErrorKind, SceneError};
+use crate::read::Result;
+
+/// How far a vertex of a facet may lie inside of the convex hull, relative to the size of the polytope: files are
+/// accepted with four digits.
+const CONVEXITY_TOLERANCE: f64 = 2e-4;
+
+/// The file's contents; `path` says where the file is named.
+pub(crate) fn read(text: &str, path: &str) -> Result<OffFile> {
+    parse(text).map_err(|error| shape_error(path, &error))
+}
+
+/// The convex polytope of a file.
+///
+/// # Errors
+/// If the file breaks the rules of the format, is of another dimension, flat, or not convex: its hull would be another
+/// body.
+pub(crate) fn polytope<const N: usize>(text: &str, path: &str) -> Result<Polytope<N>> {
+    let file = read(text, path)?;
+    let polytope = file.to_polytope::<N>().map_err(|error| shape_error(path, &error))?;
+    if let Some(facet) = facet_inside_the_hull(&file, &polytope) {
+        let message = format!(
+            "is not convex: facet {facet} of the file does not lie in the boundary of its hull; shapes that are not convex \
+             are not supported yet by this version, so split it into convex parts of a compound"
+        );
+        return Err(SceneError::new(ErrorKind::Unsupported, path, message));
+    }
+    Ok(polytope)
+}
+
+/// The number of the first listed facet that does not lie within one facet of the hull. A closed surface without one is the
+/// surface of the hull.
+fn facet_inside_the_hull<const N: usize>(file: &OffFile, polytope: &Polytope<N>) -> Option<usize> {
+    let vertices = file.vertices::<N>()?;
+    let tolerance = CONVEXITY_TOLERANCE * polytope.bounding_radius();
+    facets_as_vertices(file).iter().position(|facet| {
+        !polytope.facets().iter().any(|hull| {
+            facet.iter().all(|&vertex| {
+                vertices.get(vertex as usize).is_some_and(|&v| (hull.normal.dot(v) - hull.offset).abs() <= tolerance)
+            })
+        })
+    })
+}
+
+/// The vertices of each listed facet; none if the file does not go up to the facets.
+fn facets_as_vertices(file: &OffFile) -> Vec<Vec<u32>> {
+    let mut elements: Vec<Vec<u32>> = if file.dimension() == 2 { Vec::new() } else { file.elements(2).to_vec() };
+    for rank in 3..file.dimension() {
+        let gather = |parts: &Vec<u32>| {
+            let mut vertices: Vec<u32> =
+                parts.iter().filter_map(|&part| elements.get(part as usize)).flatten().copied().collect();
+            vertices.sort_unstable();
+            vertices.dedup();
+            vertices
+        };
+        elements = file.elements(rank).iter().map(gather).collect();
+    }
+    elements
+}
+
+/// Whether every ridge of the file bounds exactly two facets. Files that list no facets mean a hull, which is closed.
+pub(crate) fn is_closed(file: &OffFile) -> bool {
+    let facet_rank = file.dimension() - 1;
+    let mut facets_at: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+    for facet in file.elements(facet_rank) {
+        for (position, &part) in facet.iter().enumerate() {
+            // In 3D a facet is a cycle of vertices and its ridges are their pairs; from 4D up ridges have numbers.
+            let ridge = if facet_rank == 2 {
+                let next = facet[(position + 1) % facet.len()];
+                (part.min(next), part.max(next))
+            } else {
+                (part, part)
+            };
+            *facets_at.entry(ridge).or_default() += 1;
+        }
+    }
+    facets_at.values().all(|&count| count == 2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OPEN_TETRAHEDRON: &str = "OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n";
+
+    #[test]
+    fn an_open_surface_is_told_from_a_closed_one() {
+        assert!(!is_closed(&parse(OPEN_TETRAHEDRON).unwrap()));
+        let closed = OPEN_TETRAHEDRON.replace("4 3 6", "4 4 6") + "3 1 2 3\n";
+        assert!(is_closed(&parse(&closed).unwrap()));
+        let cube = hyperbody::geometry::regular::Regular::Cube;
+        let tesseract = cube.polytope::<4>(hyperbody::geometry::regular::Size::Edge(1.0)).unwrap();
+        let file = OffFile::from_polytope(&tesseract);
+        assert!(is_closed(&file));
+        let read = polytope::<4>(&file.to_string(), "").unwrap();
+        assert_eq!(read.facets().len(), 8);
+    }
+
+    #[test]
+    fn a_dented_surface_is_refused() {
+        // A square pyramid whose apex is pushed in through the base plane of a second one: an arrow head.
+        let dented = "OFF\n5 6 9\n1 0 0\n-0.5 0.9 0\n-0.5 -0.9 0\n0 0 1\n0 0 0.3\n\
+                      3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 4 1\n3 1 4 2\n3 2 4 0\n";
+        let error = polytope::<3>(dented, "bodies[0]").unwrap_err();
+        assert!(error.to_string().contains("bodies[0]: is not convex: facet 3"), "{error}");
+    }
+}

@@ -1,0 +1,94 @@
+//! Bodies and joints.
+
+use super::cursor::{At, unknown_key};
+use super::{Result, rotation, shape};
+use crate::error::{ErrorKind, SceneError, nearest};
+use crate::model::{Body, BodyKind, Joint};
+
+const BODY_KEYS: [&str; 15] = [
+    "name",
+    "kind",
+    "shape",
+    "position",
+    "rotation",
+    "velocity",
+    "angular_velocity",
+    "mass",
+    "density",
+    "material",
+    "gravity_scale",
+    "linear_damping",
+    "angular_damping",
+    "can_sleep",
+    "colour",
+];
+
+/// Joints that the format knows; those after the first are not built yet.
+const JOINTS: [&str; 6] = ["ball", "hinge", "weld", "slider", "distance", "motor"];
+const SUPPORTED_JOINTS: usize = 1;
+
+pub(super) fn body(at: &At<'_>) -> Result<Body> {
+    let fields = at.fields("a body: an object with \"shape\" and more", &BODY_KEYS)?;
+    let mut body = Body::new(shape(&fields.required("shape")?)?);
+    body.name = fields.or("name", None, |at| at.text().map(Some))?;
+    body.kind = fields.or("kind", BodyKind::Dynamic, kind)?;
+    body.position = fields.or("position", Vec::new(), At::coordinates)?;
+    body.rotation = fields.or("rotation", body.rotation, rotation::rotation)?;
+    body.velocity = fields.or("velocity", Vec::new(), At::coordinates)?;
+    body.angular_velocity = fields.or("angular_velocity", Vec::new(), |at| {
+        let rates = at.entries("an object of planes, such as {\"xy\": 0.1}")?;
+        rates.into_iter().map(|(plane, at)| Ok((plane, at.number()?))).collect()
+    })?;
+    body.mass = fields.or("mass", None, |at| at.number().map(Some))?;
+    body.density = fields.or("density", None, |at| at.number().map(Some))?;
+    body.material = fields.or("material", None, |at| at.text().map(Some))?;
+    body.gravity_scale = fields.or("gravity_scale", body.gravity_scale, At::number)?;
+    body.linear_damping = fields.or("linear_damping", body.linear_damping, At::number)?;
+    body.angular_damping = fields.or("angular_damping", body.angular_damping, At::number)?;
+    body.can_sleep = fields.or("can_sleep", body.can_sleep, At::boolean)?;
+    body.colour = fields.or("colour", None, |at| colour(at).map(Some))?;
+    Ok(body)
+}
+
+fn kind(at: &At<'_>) -> Result<BodyKind> {
+    let text = at.text()?;
+    match text.as_str() {
+        "dynamic" => Ok(BodyKind::Dynamic),
+        "static" => Ok(BodyKind::Static),
+        "kinematic" => Ok(BodyKind::Kinematic),
+        _ => {
+            let near = nearest(&text, ["dynamic", "static", "kinematic"]).unwrap_or("dynamic");
+            let message = format!("is \"{text}\", expected dynamic, static or kinematic; the nearest is \"{near}\"");
+            Err(SceneError::value(&at.path, message))
+        }
+    }
+}
+
+fn colour(at: &At<'_>) -> Result<[f64; 3]> {
+    let numbers = at.numbers()?;
+    <[f64; 3]>::try_from(numbers.as_slice()).map_err(|_| {
+        let message = format!("has {} numbers, expected 3: red, green, blue in 0..=1", numbers.len());
+        SceneError::value(&at.path, message)
+    })
+}
+
+pub(super) fn joint(at: &At<'_>) -> Result<Joint> {
+    let (key, inner) = at.variant("the kind of joint", &JOINTS)?;
+    match key {
+        "ball" => {
+            let fields = inner.fields("a ball joint", &["a", "b", "anchor_a", "anchor_b"])?;
+            Ok(Joint::Ball {
+                a: fields.required("a")?.text()?,
+                b: fields.required("b")?.text()?,
+                anchor_a: fields.or("anchor_a", Vec::new(), At::coordinates)?,
+                anchor_b: fields.or("anchor_b", Vec::new(), At::coordinates)?,
+            })
+        }
+        key if JOINTS.contains(&key) => Err(SceneError::new(
+            ErrorKind::Unsupported,
+            &at.path,
+            format!("\"{key}\" joints are not supported yet; supported: {}", JOINTS[..SUPPORTED_JOINTS].join(", ")),
+        )),
+        key => Err(unknown_key(&at.path, key, &JOINTS[..SUPPORTED_JOINTS])),
+    }
+}

@@ -1,0 +1,147 @@
+//! From the text of a file to a [`Scene`]: syntax, keys and types. What the values mean is checked where the world is
+//! built, for scenes made by programs as for those from files.
+
+mod body;
+mod cursor;
+mod rotation;
+mod shape;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use hyperbody::prelude::Material;
+
+use crate::error::{ErrorKind, SceneError};
+use crate::json::Json;
+use crate::model::{NamedMaterial, Scene, default_gravity};
+pub(crate) use cursor::{At, join};
+pub(crate) use shape::shape;
+
+pub(crate) type Result<T> = std::result::Result<T, SceneError>;
+
+/// What the first key of a scene file says.
+pub const FORMAT: &str = "hyperbody-scene";
+
+/// The version of the format that this crate reads and writes.
+pub const VERSION: u32 = 1;
+
+/// Largest size of a scene file, bytes.
+pub const MAX_FILE_BYTES: u64 = 64 << 20;
+
+const KEYS: [&str; 12] = [
+    "format",
+    "version",
+    "name",
+    "description",
+    "dimension",
+    "gravity",
+    "dt",
+    "substeps",
+    "sleeping",
+    "materials",
+    "bodies",
+    "joints",
+];
+
+impl Scene {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is larger than [`MAX_FILE_BYTES`], its text is not JSON, or a key is unknown, missing
+    /// or of the wrong type. What the values mean is checked by [`crate::AnyWorld::new`].
+    pub fn load(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let text = read_text(path, MAX_FILE_BYTES)?;
+        let json = Json::parse(&text).map_err(|error| error.in_file(Some(path)))?;
+        let mut scene = scene(&At::root(&json), stem).map_err(|error| error.in_file(Some(path)))?;
+        scene.file = Some(path.to_path_buf());
+        Ok(scene)
+    }
+
+    /// Reads a scene from text. Files that it names cannot be found: it lies in no folder.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn from_json(text: &str) -> Result<Self> {
+        scene(&At::root(&Json::parse(text)?), String::new())
+    }
+}
+
+/// The text of a file of at most `limit` bytes.
+pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String> {
+    let refuse = |message: String| SceneError::new(ErrorKind::File, "", message).in_file(Some(path));
+    let unreadable = |error: std::io::Error| refuse(format!("cannot be read: {error}"));
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > limit {
+        return Err(refuse(format!("is larger than {} MiB, the limit for such files; split it", limit >> 20)));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        refuse(format!("line {line}: not UTF-8; save the file as UTF-8 text"))
+    })
+}
+
+fn scene(at: &At<'_>, default_name: String) -> Result<Scene> {
+    // A file of another format or version may hold keys that mean nothing here: say that first.
+    let entries = at.entries("a scene: an object with \"format\", \"version\", \"dimension\", \"bodies\"")?;
+    check_format(&entries)?;
+    let fields = at.fields("a scene", &KEYS)?;
+    let dimension = fields.required("dimension")?.count()? as usize;
+    let mut scene = Scene::new(default_name, dimension);
+    scene.name = fields.or("name", scene.name, At::text)?;
+    scene.description = fields.or("description", String::new(), At::text)?;
+    scene.gravity = fields.or("gravity", Vec::new(), At::coordinates)?;
+    scene.dt = fields.or("dt", scene.dt, At::number)?;
+    scene.substeps = fields.or("substeps", scene.substeps, At::count)?;
+    scene.sleeping = fields.or("sleeping", scene.sleeping, At::boolean)?;
+    scene.materials = fields.or("materials", Vec::new(), materials)?;
+    scene.bodies =
+        fields.or("bodies", Vec::new(), |at| at.list("a list of bodies")?.iter().map(body::body).collect())?;
+    scene.joints =
+        fields.or("joints", Vec::new(), |at| at.list("a list of joints")?.iter().map(body::joint).collect())?;
+    if fields.optional("gravity").is_none() {
+        // A dimension out of range is refused where the world is built; no list may grow with it before.
+        scene.gravity = default_gravity(dimension.min(6));
+    }
+    Ok(scene)
+}
+
+fn check_format(entries: &[(String, At<'_>)]) -> Result<()> {
+    let find = |key: &str| entries.iter().find(|(name, _)| name == key).map(|(_, at)| at);
+    let Some(format) = find("format") else {
+        let message =
+            format!("has no \"format\"; a scene starts with \"format\": \"{FORMAT}\", \"version\": {VERSION}");
+        return Err(SceneError::structure("", message));
+    };
+    let format_name = format.text()?;
+    if format_name != FORMAT {
+        let message = format!("is \"{format_name}\", expected \"{FORMAT}\"");
+        return Err(SceneError::value(&format.path, message));
+    }
+    let Some(version) = find("version") else {
+        return Err(SceneError::structure("", format!("has no \"version\"; this program reads version {VERSION}")));
+    };
+    let number = version.number()?;
+    if number != f64::from(VERSION) {
+        let message =
+            format!("is {number}, but this program reads version {VERSION} only; a newer program may read it");
+        return Err(SceneError::new(ErrorKind::Unsupported, &version.path, message));
+    }
+    Ok(())
+}
+
+fn materials(at: &At<'_>) -> Result<Vec<NamedMaterial>> {
+    let material = |(name, at): (String, At<'_>)| {
+        let fields = at.fields("a material", &["friction", "restitution", "density"])?;
+        let mut material = Material::default();
+        material.friction = fields.or("friction", material.friction, At::number)?;
+        material.restitution = fields.or("restitution", material.restitution, At::number)?;
+        material.density = fields.or("density", material.density, At::number)?;
+        Ok(NamedMaterial { name, material })
+    };
+    at.entries("an object of materials by name")?.into_iter().map(material).collect()
+}

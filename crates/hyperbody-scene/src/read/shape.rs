@@ -1,0 +1,91 @@
+//! Shapes.
+
+use super::cursor::{At, unknown_key};
+use super::{Result, rotation};
+use crate::error::{ErrorKind, SceneError};
+use crate::model::{Part, PolytopeSpec, RotationSpec, ShapeSpec, Size};
+
+/// The shapes that this version builds.
+pub(crate) const SHAPES: [&str; 7] = ["ball", "box", "half_space", "capsule", "polytope", "rounded", "compound"];
+
+/// Shapes of the format that this version does not build yet.
+const LATER_SHAPES: [&str; 2] = ["product", "mesh"];
+
+pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
+    let (key, inner) = at.variant("the kind of shape", &SHAPES)?;
+    match key {
+        "ball" => Ok(ShapeSpec::Ball { radius: inner.fields("a ball", &["radius"])?.required("radius")?.number()? }),
+        "box" => {
+            let fields = inner.fields("a box", &["half_extents"])?;
+            Ok(ShapeSpec::Box { half_extents: fields.required("half_extents")?.numbers()? })
+        }
+        "half_space" => {
+            let fields = inner.fields("a half-space", &["normal", "offset"])?;
+            let offset = fields.or("offset", 0.0, At::number)?;
+            Ok(ShapeSpec::HalfSpace { normal: fields.required("normal")?.numbers()?, offset })
+        }
+        "capsule" => {
+            let fields = inner.fields("a capsule", &["half_length", "radius", "along"])?;
+            Ok(ShapeSpec::Capsule {
+                half_length: fields.required("half_length")?.number()?,
+                radius: fields.required("radius")?.number()?,
+                along: fields.required("along")?.text()?,
+            })
+        }
+        "polytope" => Ok(ShapeSpec::Polytope(polytope(&inner)?)),
+        "rounded" => {
+            let fields = inner.fields("a rounded shape", &["shape", "radius"])?;
+            let core = Box::new(shape(&fields.required("shape")?)?);
+            Ok(ShapeSpec::Rounded { shape: core, radius: fields.required("radius")?.number()? })
+        }
+        "compound" => {
+            let fields = inner.fields("a compound", &["parts"])?;
+            let parts = fields.required("parts")?.list("a list of parts")?;
+            Ok(ShapeSpec::Compound { parts: parts.iter().map(part).collect::<Result<_>>()? })
+        }
+        key if LATER_SHAPES.contains(&key) => Err(SceneError::new(
+            ErrorKind::Unsupported,
+            &at.path,
+            format!("\"{key}\" shapes are not supported yet by this version; supported: {}", SHAPES.join(", ")),
+        )),
+        key => Err(unknown_key(&at.path, key, &SHAPES)),
+    }
+}
+
+fn polytope(at: &At<'_>) -> Result<PolytopeSpec> {
+    let fields = at.fields("a polytope", &["vertices", "regular", "circumradius", "edge", "file"])?;
+    let size = match (fields.optional("circumradius"), fields.optional("edge")) {
+        (Some(radius), None) => Some(Size::Circumradius(radius.number()?)),
+        (None, Some(edge)) => Some(Size::Edge(edge.number()?)),
+        (None, None) => None,
+        (Some(_), Some(_)) => {
+            return Err(SceneError::structure(&at.path, "has both \"circumradius\" and \"edge\"; give one of them"));
+        }
+    };
+    match (fields.optional("vertices"), fields.optional("regular"), fields.optional("file"), size) {
+        (Some(vertices), None, None, None) => Ok(PolytopeSpec::Vertices(vertices.rows()?)),
+        (None, Some(name), None, Some(size)) => Ok(PolytopeSpec::Regular { name: name.text()?, size }),
+        (None, Some(_), None, None) => {
+            Err(SceneError::structure(&at.path, "is regular but has no size; add \"circumradius\" or \"edge\""))
+        }
+        (None, None, Some(file), None) => Ok(PolytopeSpec::File(file.text()?)),
+        (_, None, _, Some(_)) => Err(SceneError::structure(
+            &at.path,
+            "has \"circumradius\" or \"edge\" without \"regular\"; vertices and files have the size that they have",
+        )),
+        _ => {
+            let message =
+                "needs exactly one of \"vertices\", \"regular\" (with \"circumradius\" or \"edge\") and \"file\"";
+            Err(SceneError::structure(&at.path, message))
+        }
+    }
+}
+
+fn part(at: &At<'_>) -> Result<Part> {
+    let fields = at.fields("a part: an object with \"shape\"", &["shape", "position", "rotation"])?;
+    Ok(Part {
+        shape: shape(&fields.required("shape")?)?,
+        position: fields.or("position", Vec::new(), At::coordinates)?,
+        rotation: fields.or("rotation", RotationSpec::default(), rotation::rotation)?,
+    })
+}

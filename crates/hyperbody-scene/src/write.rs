@@ -1,0 +1,168 @@
+//! From a [`Scene`] to the text of a file that reads back as the same scene.
+
+use hyperbody::prelude::Material;
+
+use crate::json::Json;
+use crate::model::{Angle, Body, BodyKind, Joint, Part, PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size};
+use crate::read::{FORMAT, VERSION};
+
+impl Scene {
+    /// The scene as a file of the current version. What has its default value is left out, but for the world's own
+    /// settings. Reading the text gives the same scene, to the bit.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let mut fields = vec![
+            field("format", text(FORMAT)),
+            field("version", Json::Number(f64::from(VERSION))),
+            field("name", text(&self.name)),
+        ];
+        if !self.description.is_empty() {
+            fields.push(field("description", text(&self.description)));
+        }
+        fields.push(field("dimension", Json::Number(self.dimension as f64)));
+        fields.push(field("gravity", numbers(&self.gravity)));
+        fields.push(field("dt", Json::Number(self.dt)));
+        fields.push(field("substeps", Json::Number(f64::from(self.substeps))));
+        fields.push(field("sleeping", Json::Bool(self.sleeping)));
+        if !self.materials.is_empty() {
+            let materials = self.materials.iter().map(|named| field(&named.name, material(&named.material)));
+            fields.push(field("materials", Json::Object(materials.collect())));
+        }
+        fields.push(field("bodies", Json::List(self.bodies.iter().map(body).collect())));
+        if !self.joints.is_empty() {
+            fields.push(field("joints", Json::List(self.joints.iter().map(joint).collect())));
+        }
+        Json::Object(fields).to_text()
+    }
+}
+
+fn field(key: &str, value: Json) -> (String, Json) {
+    (key.to_owned(), value)
+}
+
+fn text(value: &str) -> Json {
+    Json::Text(value.to_owned())
+}
+
+fn numbers(values: &[f64]) -> Json {
+    Json::List(values.iter().copied().map(Json::Number).collect())
+}
+
+fn rows(values: &[Vec<f64>]) -> Json {
+    Json::List(values.iter().map(|row| numbers(row)).collect())
+}
+
+/// An object with one key.
+fn single(key: &str, value: Json) -> Json {
+    Json::Object(vec![field(key, value)])
+}
+
+fn material(material: &Material) -> Json {
+    Json::Object(vec![
+        field("friction", Json::Number(material.friction)),
+        field("restitution", Json::Number(material.restitution)),
+        field("density", Json::Number(material.density)),
+    ])
+}
+
+fn body(body: &Body) -> Json {
+    let mut fields = Vec::new();
+    let mut add = |key: &str, value: Option<Json>| fields.extend(value.map(|value| field(key, value)));
+    let vector = |values: &[f64]| (!values.is_empty()).then(|| numbers(values));
+    let unless = |default: f64, value: f64| (value.to_bits() != default.to_bits()).then_some(Json::Number(value));
+    add("name", body.name.as_deref().map(text));
+    add("kind", kind(body.kind));
+    add("shape", Some(shape(&body.shape)));
+    add("position", vector(&body.position));
+    add("rotation", rotation(&body.rotation));
+    add("velocity", vector(&body.velocity));
+    let rates = body.angular_velocity.iter().map(|(plane, rate)| field(plane, Json::Number(*rate)));
+    add("angular_velocity", (!body.angular_velocity.is_empty()).then(|| Json::Object(rates.collect())));
+    add("mass", body.mass.map(Json::Number));
+    add("density", body.density.map(Json::Number));
+    add("material", body.material.as_deref().map(text));
+    add("gravity_scale", unless(1.0, body.gravity_scale));
+    add("linear_damping", unless(0.0, body.linear_damping));
+    add("angular_damping", unless(0.0, body.angular_damping));
+    add("can_sleep", (!body.can_sleep).then_some(Json::Bool(false)));
+    add("colour", body.colour.map(|colour| numbers(&colour)));
+    Json::Object(fields)
+}
+
+fn kind(kind: BodyKind) -> Option<Json> {
+    match kind {
+        BodyKind::Dynamic => None,
+        BodyKind::Static => Some(text("static")),
+        BodyKind::Kinematic => Some(text("kinematic")),
+    }
+}
+
+/// A shape as a file holds it.
+pub(crate) fn shape(shape: &ShapeSpec) -> Json {
+    let inner = match shape {
+        ShapeSpec::Ball { radius } => vec![field("radius", Json::Number(*radius))],
+        ShapeSpec::Box { half_extents } => vec![field("half_extents", numbers(half_extents))],
+        ShapeSpec::HalfSpace { normal, offset } => {
+            vec![field("normal", numbers(normal)), field("offset", Json::Number(*offset))]
+        }
+        ShapeSpec::Capsule { half_length, radius, along } => vec![
+            field("half_length", Json::Number(*half_length)),
+            field("radius", Json::Number(*radius)),
+            field("along", text(along)),
+        ],
+        ShapeSpec::Polytope(polytope) => match polytope {
+            PolytopeSpec::Vertices(vertices) => vec![field("vertices", rows(vertices))],
+            PolytopeSpec::Regular { name, size } => {
+                let size = match size {
+                    Size::Circumradius(radius) => field("circumradius", Json::Number(*radius)),
+                    Size::Edge(edge) => field("edge", Json::Number(*edge)),
+                };
+                vec![field("regular", text(name)), size]
+            }
+            PolytopeSpec::File(file) => vec![field("file", text(file))],
+        },
+        ShapeSpec::Rounded { shape: core, radius } => {
+            vec![field("shape", self::shape(core)), field("radius", Json::Number(*radius))]
+        }
+        ShapeSpec::Compound { parts } => vec![field("parts", Json::List(parts.iter().map(part).collect()))],
+    };
+    single(shape.key(), Json::Object(inner))
+}
+
+fn part(part: &Part) -> Json {
+    let mut fields = vec![field("shape", shape(&part.shape))];
+    if !part.position.is_empty() {
+        fields.push(field("position", numbers(&part.position)));
+    }
+    fields.extend(rotation(&part.rotation).map(|rotation| field("rotation", rotation)));
+    Json::Object(fields)
+}
+
+fn rotation(rotation: &RotationSpec) -> Option<Json> {
+    match rotation {
+        RotationSpec::Turns(turns) if turns.is_empty() => None,
+        RotationSpec::Turns(turns) => {
+            let turns = turns.iter().map(|turn| {
+                let angle = match turn.angle {
+                    Angle::Degrees(angle) => field("angle_deg", Json::Number(angle)),
+                    Angle::Radians(angle) => field("angle", Json::Number(angle)),
+                };
+                Json::Object(vec![field("plane", text(&turn.plane)), angle])
+            });
+            Some(Json::List(turns.collect()))
+        }
+        RotationSpec::Rotor(rotor) => Some(single("rotor", numbers(rotor))),
+        RotationSpec::Matrix(matrix) => Some(single("matrix", rows(matrix))),
+    }
+}
+
+fn joint(joint: &Joint) -> Json {
+    let Joint::Ball { a, b, anchor_a, anchor_b } = joint;
+    let mut fields = vec![field("a", text(a)), field("b", text(b))];
+    for (key, anchor) in [("anchor_a", anchor_a), ("anchor_b", anchor_b)] {
+        if !anchor.is_empty() {
+            fields.push(field(key, numbers(anchor)));
+        }
+    }
+    single("ball", Json::Object(fields))
+}
