@@ -33,6 +33,20 @@ impl<const N: usize> Bivector<N> {
         b
     }
 
+    /// The bivector with number `f(i, j)` in plane (i, j), asked for i < j only.
+    #[inline]
+    #[must_use]
+    pub fn from_fn(mut f: impl FnMut(usize, usize) -> f64) -> Self {
+        let mut b = Self::ZERO;
+        for i in 0..N {
+            for j in i + 1..N {
+                b.m[i][j] = f(i, j);
+                b.m[j][i] = -b.m[i][j];
+            }
+        }
+        b
+    }
+
     /// The bivector with the given numbers for the planes in lexicographic order, or `None` if there are not exactly
     /// `N(N−1)/2` of them.
     #[must_use]

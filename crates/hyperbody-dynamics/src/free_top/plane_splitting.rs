@@ -14,44 +14,63 @@
 use hyperbody_math::{Bivector, Givens, Rotation, Vector};
 
 /// Number of rounds of disjoint planes.
-pub(crate) const fn round_count(n: usize) -> usize {
+const fn round_count(n: usize) -> usize {
     n - 1 + n % 2
 }
 
-/// h/(J_i + J_j): what turns the momentum of a plane into the angle of its turn.
-#[inline]
-fn angle_per_momentum<const N: usize>(principal_moments: &Vector<N>, h: f64) -> [[f64; N]; N] {
-    let mut rate = [[0.0; N]; N];
-    for i in 0..N {
-        for j in i + 1..N {
-            rate[i][j] = h / (principal_moments[i] + principal_moments[j]);
-        }
-    }
-    rate
-}
-
-/// One round of exact flows over `fraction` of the time that `angle_per_momentum` stands for.
+/// The planes of one round, each given to `flow` with the time for which it turns.
 ///
 /// Circle method: with m the round count, axes i and j < m meet in round (i + j) mod m; for even N the last axis meets
 /// the one that would meet itself.
 #[inline]
-fn turn_round<const N: usize>(
-    round: usize,
-    fraction: f64,
-    angle_per_momentum: &[[f64; N]; N],
-    momentum: &mut Bivector<N>,
-    world_from_body: &mut Rotation<N>,
-) {
+fn round<const N: usize>(round: usize, time: f64, flow: &mut impl FnMut(usize, usize, f64)) {
     let m = round_count(N);
     for first in 0..m {
         let second = (round + m - first) % m;
         let (i, j) = if first == second && N.is_multiple_of(2) { (first, N - 1) } else { (first, second) };
         if i < j {
-            let turn = Givens::from_angle(fraction * angle_per_momentum[i][j] * momentum.get(i, j));
-            momentum.change_to_turned_frame(i, j, turn);
-            world_from_body.turn_in_body_plane(i, j, turn);
+            flow(i, j, time);
         }
     }
+}
+
+/// The single-plane flows of a step of `dt` seconds in their order: `flow(i, j, time)`. One symmetric stage of second
+/// order for each weight, where the outermost rounds of neighbouring stages, which turn the same planes, are merged.
+#[inline]
+pub(crate) fn for_each_flow<const N: usize>(weights: &[f64], dt: f64, flow: &mut impl FnMut(usize, usize, f64)) {
+    let innermost = round_count(N) - 1;
+    if innermost == 0 {
+        // One plane: its flow is exact whatever the weights.
+        flow(0, 1, dt);
+        return;
+    }
+    let mut pending = 0.0;
+    for &weight in weights {
+        let half = 0.5 * weight * dt;
+        round::<N>(0, pending + half, flow);
+        for index in 1..innermost {
+            round::<N>(index, half, flow);
+        }
+        round::<N>(innermost, 2.0 * half, flow);
+        for index in (1..innermost).rev() {
+            round::<N>(index, half, flow);
+        }
+        pending = half;
+    }
+    round::<N>(0, pending, flow);
+}
+
+/// The exact flow of one plane: turns attitude and momentum by `angle_per_momentum` times the momentum of the plane.
+#[inline]
+pub(crate) fn turn_plane<const N: usize>(
+    (i, j): (usize, usize),
+    angle_per_momentum: f64,
+    momentum: &mut Bivector<N>,
+    world_from_body: &mut Rotation<N>,
+) {
+    let turn = Givens::from_angle(angle_per_momentum * momentum.get(i, j));
+    momentum.change_to_turned_frame(i, j, turn);
+    world_from_body.turn_in_body_plane(i, j, turn);
 }
 
 /// One free-rotation step of second order for a body that carries its angular momentum in the world frame.
@@ -73,14 +92,14 @@ pub fn free_rotation_step<const N: usize>(
     if !momentum.is_finite() {
         return;
     }
-    let rate = angle_per_momentum(principal_moments, dt);
-    let innermost = round_count(N) - 1;
-    for round in 0..innermost {
-        turn_round(round, 0.5, &rate, &mut momentum, world_from_principal);
+    let mut inverse_inertia = [[0.0; N]; N];
+    for i in 0..N {
+        for j in i + 1..N {
+            inverse_inertia[i][j] = 1.0 / (principal_moments[i] + principal_moments[j]);
+        }
     }
-    turn_round(innermost, 1.0, &rate, &mut momentum, world_from_principal);
-    for round in (0..innermost).rev() {
-        turn_round(round, 0.5, &rate, &mut momentum, world_from_principal);
-    }
+    for_each_flow::<N>(&[1.0], dt, &mut |i, j, time| {
+        turn_plane((i, j), time * inverse_inertia[i][j], &mut momentum, world_from_principal);
+    });
     world_from_principal.reorthonormalize();
 }

@@ -1,0 +1,102 @@
+//! Orientation conventions and Euler's equation plane by plane.
+
+mod free_top_common;
+
+use free_top_common::Random;
+use hyperbody_dynamics::free_top::{FreeTop, TopState, plane_equations};
+use hyperbody_math::{Bivector, Matrix, Rotation, Vector};
+
+fn random_case<const N: usize>(random: &mut Random) -> (FreeTop<N>, Bivector<N>) {
+    let top = FreeTop::new(Vector::from_fn(|_| random.between(0.1, 4.0))).expect("positive moments");
+    (top, Bivector::from_fn(|_, _| random.between(-2.0, 2.0)))
+}
+
+/// Ω = −B turns Ṙ = RΩ, M = JΩ + ΩJ, Ṁ = [M, Ω] into what this library computes.
+fn check_conventions<const N: usize>() {
+    let mut random = Random::new(N as u64);
+    for _ in 0..20 {
+        let (top, spin) = random_case::<N>(&mut random);
+        let omega = -spin.to_matrix();
+        let j = Matrix::from_diagonal(*top.principal_moments());
+        let m = j * omega + omega * j;
+        let momentum = top.momentum_from_spin(&spin);
+        assert!((momentum.to_matrix() + m).max_abs() < 1e-13, "M = JΩ + ΩJ");
+        let rate = top.momentum_rate(&momentum).to_matrix();
+        assert!((rate + (m * omega - omega * m)).max_abs() < 1e-12, "Ṁ = [M, Ω]");
+        assert!((rate - spin.commutator(&momentum).to_matrix()).max_abs() < 1e-12, "Ṁ = ω × M");
+        let of_spin = top.momentum_from_spin(&top.spin_rate(&spin));
+        assert!((of_spin.to_matrix() - rate).max_abs() < 1e-12, "dω/dt");
+
+        // R after a short time h is R(1 + hΩ): what Rotation::exp of the spin does.
+        let h = 1e-5;
+        let turned = Rotation::exp(&(spin * h));
+        let difference = (*turned.matrix() - (Matrix::IDENTITY + omega * h)).max_abs();
+        assert!(difference < 200.0 * h * h, "Ṙ = RΩ: off by {difference}");
+        let point = Vector::from_fn(|_| random.between(-1.0, 1.0));
+        assert!((spin.act_on(point) - omega * point).norm() < 1e-13, "r·B = Ωr");
+    }
+}
+
+#[test]
+fn the_matrix_convention_of_the_literature_is_minus_the_bivector() {
+    check_conventions::<2>();
+    check_conventions::<3>();
+    check_conventions::<4>();
+    check_conventions::<5>();
+    check_conventions::<6>();
+}
+
+fn check_plane_equations<const N: usize>() {
+    let mut random = Random::new(40 + N as u64);
+    let (top, spin) = random_case::<N>(&mut random);
+    let rate = top.spin_rate(&spin);
+    let equations = plane_equations(&top, &spin);
+    for equation in &equations {
+        let (i, j) = equation.plane;
+        assert!((equation.rate - rate.get(i, j)).abs() < 1e-12, "{N}D: {}", equation.to_text());
+        assert_eq!(equation.drives.len(), N - 2);
+        // A spin in the planes that never drive it, and in itself, leaves the plane alone.
+        let mut others = Bivector::plane(i, j, 1.0);
+        for &(k, l) in &equation.never_driven_by {
+            others.set(k, l, random.between(-2.0, 2.0));
+        }
+        assert_eq!(top.spin_rate(&others).get(i, j), 0.0, "{}", equation.to_text());
+        for drive in &equation.drives {
+            let [(a, b), (c, d)] = drive.planes;
+            let pair = Bivector::plane(a, b, 2.0) + Bivector::plane(c, d, 3.0);
+            let expected = 6.0 * drive.coefficient;
+            assert!((top.spin_rate(&pair).get(i, j) - expected).abs() < 1e-13, "{}", equation.to_text());
+        }
+    }
+    assert_eq!(equations.len(), N * (N - 1) / 2);
+}
+
+#[test]
+fn planes_drive_each_other_as_the_equations_say() {
+    check_plane_equations::<2>();
+    check_plane_equations::<3>();
+    check_plane_equations::<4>();
+    check_plane_equations::<5>();
+    check_plane_equations::<6>();
+}
+
+#[test]
+fn in_three_dimensions_they_are_eulers_equations() {
+    let (i1, i2, i3) = (1.7, 2.5, 3.2);
+    let top = FreeTop::<3>::from_plane_moments(&[i3, i2, i1]).expect("a body");
+    let (w1, w2, w3) = (0.3, -0.8, 1.1);
+    let spin = Bivector::from_planes(&[w3, -w2, w1]).expect("three planes");
+    let rate = top.spin_rate(&spin);
+    assert!((rate.get(1, 2) - (i2 - i3) / i1 * w2 * w3).abs() < 1e-15);
+    assert!((-rate.get(0, 2) - (i3 - i1) / i2 * w3 * w1).abs() < 1e-15);
+    assert!((rate.get(0, 1) - (i1 - i2) / i3 * w1 * w2).abs() < 1e-15);
+}
+
+#[test]
+fn in_four_dimensions_the_complement_never_drives() {
+    let top = FreeTop::new(Vector([4.0, 3.0, 2.0, 1.0])).expect("a body");
+    let text = plane_equations(&top, &Bivector::ZERO)[0].to_text();
+    assert_eq!(text, "dω_xy/dt = 0.142857 ω_xz ω_yz + 0.142857 ω_xw ω_yw, never driven by zw");
+    let state = TopState::from_spin(&top, Rotation::IDENTITY, &(Bivector::ZERO * f64::NAN));
+    assert!(state.is_err(), "a spin that is no number is refused");
+}
