@@ -4,7 +4,8 @@ mod free_top_common;
 
 use free_top_common::Random;
 use hyperbody_dynamics::free_top::{FreeTop, TopState, plane_equations};
-use hyperbody_math::{Bivector, Matrix, Rotation, Vector};
+use hyperbody_geometry::Shape;
+use hyperbody_math::{Bivector, Dim, EvenAlgebra, Matrix, Rotation, Vector};
 
 fn random_case<const N: usize>(random: &mut Random) -> (FreeTop<N>, Bivector<N>) {
     let top = FreeTop::new(Vector::from_fn(|_| random.between(0.1, 4.0))).expect("positive moments");
@@ -99,4 +100,35 @@ fn in_four_dimensions_the_complement_never_drives() {
     assert_eq!(text, "dω_xy/dt = 0.142857 ω_xz ω_yz + 0.142857 ω_xw ω_yw, never driven by zw");
     let state = TopState::from_spin(&top, Rotation::IDENTITY, &(Bivector::ZERO * f64::NAN));
     assert!(state.is_err(), "a spin that is no number is refused");
+}
+
+fn check_shapes_and_rotors<const N: usize>()
+where
+    Dim<N>: EvenAlgebra,
+{
+    let half_extents = Vector::<N>::from_fn(|i| 0.3 + 0.2 * i as f64);
+    let shape = Shape::cuboid(half_extents).expect("a box");
+    let (top, body_from_principal) = FreeTop::from_shape(&shape).expect("a solid");
+    for (rank, moment) in top.principal_moments().iter().enumerate() {
+        // Descending moments: the axes in reverse.
+        let expected = half_extents[N - 1 - rank] * half_extents[N - 1 - rank] / 3.0;
+        assert!((moment - expected).abs() < 1e-14, "J = h²/3: {moment} for {expected}");
+        assert!((body_from_principal.matrix()[N - 1 - rank][rank].abs() - 1.0).abs() < 1e-14);
+    }
+    let mut random = Random::new(N as u64);
+    let (top, spin) = random_case::<N>(&mut random);
+    let state = TopState::from_spin(&top, Rotation::exp(&spin), &spin).expect("finite");
+    let again = TopState::from_rotor_and_momentum(&state.world_from_body_rotor(), state.momentum_in_body);
+    assert!(state.distance(&again) < 1e-14, "{N}D: rotor and matrix differ");
+}
+
+#[test]
+fn bodies_come_from_shapes_and_attitudes_from_rotors() {
+    check_shapes_and_rotors::<2>();
+    check_shapes_and_rotors::<3>();
+    check_shapes_and_rotors::<4>();
+    check_shapes_and_rotors::<5>();
+    check_shapes_and_rotors::<6>();
+    let ground = Shape::half_space(Vector([0.0, 1.0, 0.0]), 0.0).expect("a half-space");
+    assert!(FreeTop::from_shape(&ground).is_err());
 }

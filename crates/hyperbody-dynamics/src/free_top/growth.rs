@@ -1,4 +1,4 @@
-//! Growth rates of disturbances, measured: what the verdicts of [`stability`](super::stability) are checked against.
+//! Growth rates of disturbances, measured: what the verdicts of [`stability`](mod@super::stability) are checked against.
 //!
 //! Two ways that share nothing with the eigenvalue formulas. *Linearised*: the derivative of one step of the fourth-order
 //! splitting at the steady rotation, flow by flow, is a matrix A; squaring it twenty times over follows a disturbance

@@ -9,7 +9,7 @@
 //! The momentum is kept in the body frame beside the attitude, not derived from a fixed world-frame momentum: that R M Rᵀ
 //! stays put is then a property of the method that can be measured.
 
-use hyperbody_math::{Bivector, Rotation};
+use hyperbody_math::{Bivector, Dim, EvenAlgebra, Rotation, Rotor};
 
 use super::error::{FreeTopError, FreeTopErrorKind, Result};
 use super::top::FreeTop;
@@ -50,6 +50,24 @@ impl<const N: usize> TopState<N> {
     #[must_use]
     pub fn momentum_in_world(&self) -> Bivector<N> {
         self.world_from_body.rotate_bivector(&self.momentum_in_body)
+    }
+
+    /// The attitude as a rotor; of the two the one whose scalar part is not negative.
+    #[must_use]
+    pub fn world_from_body_rotor(&self) -> Rotor<N>
+    where
+        Dim<N>: EvenAlgebra,
+    {
+        Rotor::from_rotation(&self.world_from_body)
+    }
+
+    /// The state with the given attitude as a rotor and momentum in the body frame, in kg·m²/s.
+    #[must_use]
+    pub fn from_rotor_and_momentum(world_from_body: &Rotor<N>, momentum_in_body: Bivector<N>) -> Self
+    where
+        Dim<N>: EvenAlgebra,
+    {
+        Self { world_from_body: world_from_body.to_rotation(), momentum_in_body }
     }
 
     /// Largest entry of the difference of two states: attitudes as matrices, momenta relative to the larger one.

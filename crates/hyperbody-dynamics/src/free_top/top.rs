@@ -7,13 +7,16 @@
 //! and the three moments of inertia are free within triangle inequalities; from 4D on the N(N−1)/2 moments are bound to
 //! each other, since only N of them can be chosen.
 
-use hyperbody_geometry::MassProperties;
-use hyperbody_math::{Bivector, Rotation, Vector, planes, symmetric_eigen};
+use hyperbody_geometry::{MassProperties, Shape};
+use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
 use super::error::{FreeTopError, FreeTopErrorKind, Result};
 
 /// Largest relative contradiction between given moments of inertia that counts as rounding.
 const MOMENT_TOLERANCE: f64 = 1e-9;
+
+/// Second moment below which a direction counts as flat, relative to the largest.
+const FLAT: f64 = 1e-14;
 
 /// A torque-free rigid body in its principal frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,17 +113,30 @@ impl<const N: usize> FreeTop<N> {
         Self::new(moments)
     }
 
-    /// The body with the given mass properties in its principal axes, moments descending, and the attitude
-    /// `body_from_principal` of those axes in the frame of the mass properties.
+    /// The body with the given mass properties, per unit mass: moments J_i in m² in descending order, which is what
+    /// tables list, and the attitude `body_from_principal` of the principal axes. The motion does not depend on the mass;
+    /// momenta and energies are those of one kilogram.
     ///
     /// # Errors
-    /// As [`FreeTop::new`], for bodies that are no solids.
+    /// If the mass is not positive, and as [`FreeTop::new`].
     pub fn from_mass_properties(properties: &MassProperties<N>) -> Result<(Self, Rotation<N>)> {
-        let (moments, body_from_principal) = symmetric_eigen(&properties.second_moments);
+        if !(properties.mass > 0.0 && properties.mass.is_finite()) {
+            return Err(bad_moments(format!("the mass is {} kg; it must be finite and positive", properties.mass)));
+        }
+        let (moments, body_from_principal) = properties.scaled(1.0 / properties.mass).principal();
         // A flat direction comes out of the diagonalisation as zero up to rounding of the largest moment.
-        let floor = 1e-14 * moments.max_abs();
+        let floor = FLAT * moments.max_abs();
         let cleaned = Vector::from_fn(|i| if moments[i].abs() < floor { 0.0 } else { moments[i] });
         Ok((Self::new(cleaned)?, body_from_principal))
+    }
+
+    /// The body of a shape of even density, as [`FreeTop::from_mass_properties`].
+    ///
+    /// # Errors
+    /// If the shape has no mass properties, as a half-space has none.
+    pub fn from_shape(shape: &Shape<N>) -> Result<(Self, Rotation<N>)> {
+        let properties = shape.mass_properties(1.0).map_err(|error| bad_moments(error.to_string()))?;
+        Self::from_mass_properties(&properties)
     }
 
     /// J_i in kg·m², by axis.
