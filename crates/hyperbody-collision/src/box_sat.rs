@@ -29,15 +29,24 @@ pub enum Feature {
     Mixed,
 }
 
-/// The best separating axis of two boxes.
+/// One separating axis of two boxes.
 #[derive(Clone, Copy, Debug)]
-pub struct BoxSeparation<const N: usize> {
+pub struct BoxAxis<const N: usize> {
     /// Unit, in a's frame, from a to b.
     pub normal: Vector<N>,
     /// Along the normal; minus the depth if the boxes overlap. For disjoint boxes a lower bound on their distance.
     pub separation: f64,
     /// Where the normal comes from.
     pub feature: Feature,
+}
+
+/// The best separating axes of two boxes.
+#[derive(Clone, Copy, Debug)]
+pub struct BoxSeparation<const N: usize> {
+    /// The one to build a contact on.
+    pub best: BoxAxis<N>,
+    /// The one with the greatest separation; the same unless a facet normal was preferred to it.
+    pub least: BoxAxis<N>,
     /// Number of axes looked at: all of them unless one separated by more than was asked.
     pub axes_tried: u32,
 }
@@ -97,11 +106,10 @@ pub fn separate_boxes<const N: usize>(
     };
     let to_a = |found: &Best<N>| Best { direction: -(*cosines * found.direction), ..*found };
     let mut tried = 0;
-    let answer = |best: Best<N>, feature, axes_tried| BoxSeparation {
-        normal: best.direction,
-        separation: best.separation,
-        feature,
-        axes_tried,
+    let axis = |found: Best<N>, feature| BoxAxis { normal: found.direction, separation: found.separation, feature };
+    let answer = |found: Best<N>, feature, axes_tried| {
+        let best = axis(found, feature);
+        BoxSeparation { best, least: best, axes_tried }
     };
 
     let facet_a = from_a.facets(&mut tried);
@@ -140,10 +148,11 @@ pub fn separate_boxes<const N: usize>(
     let allowance =
         limits::FACET_PREFERENCE_RELATIVE * facet.separation.abs() + limits::FACET_PREFERENCE_ABSOLUTE * size;
     if mixed.separation + bonus(Feature::Mixed) > facet.separation + allowance {
-        answer(mixed, Feature::Mixed, tried)
-    } else {
-        answer(facet, feature, tried)
+        return answer(mixed, Feature::Mixed, tried);
     }
+    let best = axis(facet, feature);
+    let least = if mixed.separation > facet.separation { axis(mixed, Feature::Mixed) } else { best };
+    BoxSeparation { best, least, axes_tried: tried }
 }
 
 impl<const N: usize> Frame<N> {

@@ -3,8 +3,10 @@
 //! The patch is kept as its vertices, each with the set of constraints that it makes tight. One cut is a step of the
 //! double-description method (Motzkin, Raiffa, Thompson, Thrall 1953): vertices outside go, and every edge from inside
 //! to outside leaves a new vertex. Two vertices of a patch of dimension d can be joined by an edge only if they share
-//! at least d − 1 tight constraints; that they do is taken for an edge. Where vertices are tight on more constraints
-//! than d (the test is exact up to d = 3) this may add a point that is no corner but lies in the patch: harmless.
+//! at least d − 1 tight constraints. While every vertex is tight on exactly d constraints, as those of boxes and of
+//! simplices in general position are, that is also enough. Once one is tight on more, a pair is an edge only if no third
+//! vertex makes tight all that the two share (Fukuda, Prodon 1996), and vertices that coincide are made one, without
+//! which two copies of a point would hide each other's edges.
 
 use hyperbody_math::Vector;
 
@@ -28,6 +30,8 @@ pub(crate) struct Clipper<const N: usize, const W: usize> {
     features: Vec<u32>,
     own: usize,
     dimension: usize,
+    /// Every vertex is tight on `dimension` constraints and no more.
+    simple: bool,
 }
 
 impl<const N: usize, const W: usize> Clipper<N, W> {
@@ -38,6 +42,7 @@ impl<const N: usize, const W: usize> Clipper<N, W> {
         self.features.extend(own);
         self.own = self.features.len();
         self.dimension = dimension;
+        self.simple = true;
     }
 
     /// Adds a vertex that makes the given own constraints tight.
@@ -46,6 +51,7 @@ impl<const N: usize, const W: usize> Clipper<N, W> {
         for bit in bits {
             set(&mut tight, bit);
         }
+        self.simple &= count(&tight) <= self.dimension;
         self.vertices.push(ClipVertex { point, tight });
     }
 
@@ -65,12 +71,18 @@ impl<const N: usize, const W: usize> Clipper<N, W> {
         }
         self.features.push(feature);
         let before = self.vertices.len();
+        for index in 0..before {
+            if self.distances[index].abs() <= tolerance {
+                set(&mut self.vertices[index].tight, bit);
+                self.simple &= count(&self.vertices[index].tight) <= self.dimension;
+            }
+        }
         for outside in 0..before {
             if self.distances[outside] > tolerance {
                 self.cross_edges_of(outside, before, tolerance, bit);
             }
         }
-        self.drop_outside(before, tolerance, bit);
+        self.drop_outside(before, tolerance);
         !self.vertices.is_empty()
     }
 
@@ -85,31 +97,51 @@ impl<const N: usize, const W: usize> Clipper<N, W> {
             }
             let near = self.vertices[inside];
             let mut shared = [0; W];
-            let mut count = 0;
             for word in 0..W {
                 shared[word] = near.tight[word] & far.tight[word];
-                count += shared[word].count_ones() as usize;
             }
-            if count + 1 < self.dimension {
-                continue;
+            let edge = count(&shared) + 1 >= self.dimension
+                && (self.simple || !self.shared_by_a_third(&shared, [inside, outside], before));
+            if edge {
+                let t = near_distance / (near_distance - far_distance);
+                set(&mut shared, bit);
+                self.add_crossing(
+                    ClipVertex { point: near.point.lerp(far.point, t), tight: shared },
+                    before,
+                    tolerance,
+                );
             }
-            let t = near_distance / (near_distance - far_distance);
-            set(&mut shared, bit);
-            self.vertices.push(ClipVertex { point: near.point.lerp(far.point, t), tight: shared });
         }
     }
 
-    /// Removes the outside ones of the first `before` vertices and marks those on the plane.
-    fn drop_outside(&mut self, before: usize, tolerance: f64, bit: usize) {
+    /// Whether a vertex beside the pair makes all the given constraints tight.
+    fn shared_by_a_third(&self, shared: &[u64; W], pair: [usize; 2], before: usize) -> bool {
+        let holds = |tight: &[u64; W]| (0..W).all(|word| tight[word] & shared[word] == shared[word]);
+        (0..before).any(|index| !pair.contains(&index) && holds(&self.vertices[index].tight))
+    }
+
+    /// Adds a point on the new plane, or joins it to one already there.
+    fn add_crossing(&mut self, crossing: ClipVertex<N, W>, before: usize, tolerance: f64) {
+        if !self.simple {
+            let close = |point: Vector<N>| (point - crossing.point).max_abs() <= SAME_POINT * tolerance;
+            let on_plane = |index: usize| index >= before || self.distances[index].abs() <= tolerance;
+            let twin = (0..self.vertices.len()).find(|&index| on_plane(index) && close(self.vertices[index].point));
+            if let Some(twin) = twin {
+                for word in 0..W {
+                    self.vertices[twin].tight[word] |= crossing.tight[word];
+                }
+                return;
+            }
+        }
+        self.vertices.push(crossing);
+    }
+
+    /// Removes the outside ones of the first `before` vertices.
+    fn drop_outside(&mut self, before: usize, tolerance: f64) {
         let mut kept = 0;
         for index in 0..self.vertices.len() {
-            if index < before {
-                if self.distances[index] > tolerance {
-                    continue;
-                }
-                if self.distances[index] >= -tolerance {
-                    set(&mut self.vertices[index].tight, bit);
-                }
+            if index < before && self.distances[index] > tolerance {
+                continue;
             }
             self.vertices[kept] = self.vertices[index];
             kept += 1;
@@ -141,6 +173,15 @@ pub(crate) fn feature_hash(feature: u32, parity: u32) -> u32 {
     hash = (hash ^ hash >> 16).wrapping_mul(0x85eb_ca6b);
     hash = (hash ^ hash >> 13).wrapping_mul(0xc2b2_ae35);
     hash ^ hash >> 16
+}
+
+/// Distance of two vertices, in parts of the tolerance of planes, up to which they are one: where planes meet at a
+/// small angle their crossing is less certain than they are.
+const SAME_POINT: f64 = 100.0;
+
+#[inline]
+fn count<const W: usize>(words: &[u64; W]) -> usize {
+    words.iter().map(|word| word.count_ones() as usize).sum()
 }
 
 #[inline]

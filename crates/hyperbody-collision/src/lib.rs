@@ -13,16 +13,24 @@
 
 pub mod box_sat;
 mod clip;
+mod difference;
+mod epa;
 mod faces;
+mod general;
+mod gjk;
 mod half_space;
+mod inner_hull;
 pub mod limits;
 pub mod manifold;
 pub mod narrow;
+mod overlap;
+mod pair;
 mod patch;
 mod reduce;
 mod round;
+mod simplex;
 pub mod tree;
 
 pub use manifold::{ContactPoint, MAX_POINTS, Manifold, max_points};
-pub use narrow::{PairCache, Scratch, collide};
+pub use narrow::{Effort, PairCache, Scratch, collide};
 pub use tree::DynamicTree;

@@ -38,3 +38,49 @@ pub const EQUAL_DEPTH: f64 = 1e-4;
 /// How much larger a distance has to be (as a factor on its square) to displace a point that was chosen in the
 /// previous step.
 pub const COHERENCE_GAIN: f64 = 1.1;
+
+/// A column this short, in parts of its original length, after taking away what earlier columns explain is dependent
+/// on them: flat boxes of 1e-3 by 1e3 stay a million times above it.
+pub const DEPENDENT: f64 = 1e-12;
+
+/// Distance of two cores, in parts of their size, below which they touch and the direction between their closest
+/// points is mostly rounding.
+pub const TOUCHING: f64 = 1e-9;
+
+/// Relative gap between the upper and the lower bound on a distance at which the search ends. The angle of the normal
+/// is then right to the root of it.
+pub const GJK_RELATIVE_GAP: f64 = 1e-14;
+
+/// The absolute part of the same, in parts of the shapes' size: a few roundings of a vertex.
+pub const GJK_ABSOLUTE_GAP: f64 = 1e-15;
+
+/// Bound on the turns of the distance search. The most seen over the fuzzing is a quarter of it.
+pub const MAX_GJK_TURNS: u32 = 128;
+
+/// Two vertices or planes closer than this, in parts of the shapes' size, are one when the difference of two shapes is
+/// filled from inside.
+pub const EPA_GAP: f64 = 1e-10;
+
+/// Ratio of the least to the largest pivot below which N points span no hyperplane worth the name.
+pub const FLAT_SIMPLEX: f64 = 1e-9;
+
+/// Bound on the vertices that the penetration search adds.
+pub const MAX_EPA_VERTICES: usize = 512;
+
+/// Bound on the facets that the penetration search makes: about a megabyte of them.
+pub const MAX_EPA_FACETS: usize = 16_384;
+
+/// Polytopes with more facets than this are not searched facet by facet for the way out; the penetration search alone
+/// decides, and the facets next to its answer are preferred afterwards.
+pub const MAX_FACETS_TRIED: usize = 160;
+
+/// How often in a row a normal that won before may win again because no way out can be shorter than
+/// [`RECHECK_FRACTION`] of its depth, before the full search has to confirm it.
+pub const RECHECK_AFTER: u32 = 16;
+
+/// See [`RECHECK_AFTER`].
+pub const RECHECK_FRACTION: f64 = 0.5;
+
+/// How far apart sideways two capsules' axes may be at the ends of their common stretch, in parts of the sum of their
+/// radii, to touch at both ends: beyond, the round surfaces fall away from each other.
+pub const ASIDE: f64 = 0.02;

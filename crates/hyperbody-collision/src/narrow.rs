@@ -1,30 +1,67 @@
 //! The narrow phase: the contacts of one pair of pieces.
 
 use hyperbody_geometry::shape::Piece;
-use hyperbody_geometry::{Convex, Core};
 use hyperbody_math::{Pose, Vector};
 
-use crate::box_sat::{Feature, separate_boxes};
+use crate::box_sat::Feature;
+use crate::gjk::Seeds;
 use crate::half_space;
-use crate::manifold::{ContactPoint, Manifold};
-use crate::patch::{self, PatchMemory, PatchScratch, Side};
-use crate::round::{self, Segment, Witness};
+use crate::inner_hull::InnerHull;
+use crate::manifold::Manifold;
+use crate::pair::Pair;
+use crate::patch::{PatchMemory, PatchScratch};
 
 /// What is worth keeping of a pair from one step to the next. Start with the default; give the same cache to the same
 /// pair in the same order. Results with and without a history differ only within the tolerances of [`crate::limits`].
 #[derive(Clone, Debug, Default)]
 pub struct PairCache<const N: usize> {
     /// Unit, in a's frame, from a to b; zero if nothing is known.
-    normal: Vector<N>,
-    feature: Feature,
-    patch: PatchMemory,
+    pub(crate) normal: Vector<N>,
+    /// Where the normal of an overlap came from; `None` while the pair is disjoint.
+    pub(crate) feature: Feature,
+    /// Number of the facet that the normal came from.
+    pub(crate) facet: u32,
+    /// Steps since the way out of an overlap was last confirmed by the full search.
+    pub(crate) unconfirmed: u32,
+    /// Vertices that made up the closest points or the facet of the difference.
+    pub(crate) seeds: Seeds,
+    pub(crate) patch: PatchMemory,
 }
 
 /// Working memory of [`collide`], to be kept so that nothing is allocated once it has grown. One per thread; its
 /// contents never influence a result.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch<const N: usize> {
-    patch: PatchScratch<N>,
+    pub(crate) patch: PatchScratch<N>,
+    pub(crate) hull: InnerHull<N>,
+    pub(crate) effort: Effort,
+}
+
+impl<const N: usize> Scratch<N> {
+    /// The most that any call with this scratch has taken.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        Effort { patch_vertices: self.patch.most_vertices, ..self.effort }
+    }
+}
+
+/// Largest numbers of turns seen, to be held against the bounds in [`crate::limits`], and how often each method ran.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Turns of one distance search, at most [`crate::limits::MAX_GJK_TURNS`].
+    pub gjk_turns: u32,
+    /// Vertices of one penetration search, at most [`crate::limits::MAX_EPA_VERTICES`] and the first simplex.
+    pub epa_vertices: u32,
+    /// Facets of one penetration search, about [`crate::limits::MAX_EPA_FACETS`] at most.
+    pub epa_facets: u32,
+    /// Vertices of one patch before it was reduced.
+    pub patch_vertices: u32,
+    /// Distance searches run.
+    pub gjk_runs: u64,
+    /// Penetration searches run.
+    pub epa_runs: u64,
+    /// Contacts held by the closest or deepest points because the facets' projections did not show them.
+    pub witness_points: u64,
 }
 
 /// Finds the contacts of piece `a` at `world_from_a` with piece `b` at `world_from_b` and puts them into `out`, whatever
@@ -61,7 +98,7 @@ pub fn collide<const N: usize>(
             half_space::collide(shape, world_from_b, plane, margin, &cache.patch, reducer, out);
         }
         (Piece::Convex(a), Piece::Convex(b)) => {
-            Pair { a, b, world_from_a, world_from_b, margin }.collide(cache, scratch, out);
+            Pair::new(a, world_from_a, b, world_from_b, margin).collide(cache, scratch, out);
         }
     }
     cache.patch.remember(out);
@@ -86,138 +123,4 @@ fn is_finite<const N: usize>(pose: &Pose<N>) -> bool {
 fn plane_in_world<const N: usize>(world_from_piece: &Pose<N>, normal: Vector<N>, offset: f64) -> (Vector<N>, f64) {
     let normal = world_from_piece.rotation.rotate(normal);
     (normal, offset + normal.dot(world_from_piece.translation))
-}
-
-/// Two rounded cores in the world.
-struct Pair<'a, const N: usize> {
-    a: &'a Convex<N>,
-    b: &'a Convex<N>,
-    world_from_a: &'a Pose<N>,
-    world_from_b: &'a Pose<N>,
-    margin: f64,
-}
-
-impl<const N: usize> Pair<'_, N> {
-    fn collide(&self, cache: &mut PairCache<N>, scratch: &mut Scratch<N>, out: &mut Manifold<N>) {
-        let rounding = self.a.radius + self.b.radius;
-        if self.apart(cache) {
-            return;
-        }
-        match (&self.a.core, &self.b.core) {
-            (Core::Box { half_extents: half_a }, Core::Box { half_extents: half_b }) if rounding == 0.0 => {
-                self.boxes(half_a, half_b, cache, scratch, out);
-            }
-            (Core::Box { half_extents }, Core::Point) => {
-                let point = self.world_from_a.inverse_transform_point(self.world_from_b.translation);
-                let witness = round::box_and_point(half_extents, point).transformed(self.world_from_a);
-                self.single(&witness, cache, out);
-            }
-            (Core::Point, Core::Box { half_extents }) => {
-                let point = self.world_from_b.inverse_transform_point(self.world_from_a.translation);
-                let witness = round::box_and_point(half_extents, point).transformed(self.world_from_b);
-                self.single(&witness.flipped(), cache, out);
-            }
-            (core_a, core_b) => {
-                if let (Some(half_a), Some(half_b)) = (round::as_segment(core_a), round::as_segment(core_b)) {
-                    self.segments(half_a, half_b, cache, out);
-                }
-            }
-        }
-    }
-
-    /// Whether the direction that separated the pair in the previous step still does.
-    fn apart(&self, cache: &PairCache<N>) -> bool {
-        if cache.normal == Vector::ZERO {
-            return false;
-        }
-        let normal = self.world_from_a.rotation.rotate(cache.normal);
-        let centres = (self.world_from_b.translation - self.world_from_a.translation).dot(normal);
-        let toward_a = -self.world_from_b.rotation.inverse_rotate(normal);
-        let reach_a = self.a.core.support(cache.normal).dot(cache.normal) + self.a.radius;
-        let reach_b = self.b.core.support(toward_a).dot(toward_a) + self.b.radius;
-        centres - reach_a - reach_b > self.margin
-    }
-
-    fn sides(&self) -> (Side<'_, N>, Side<'_, N>) {
-        (Side::new(self.a, self.world_from_a), Side::new(self.b, self.world_from_b))
-    }
-
-    /// Two boxes without rounding.
-    fn boxes(
-        &self,
-        half_a: &Vector<N>,
-        half_b: &Vector<N>,
-        cache: &mut PairCache<N>,
-        scratch: &mut Scratch<N>,
-        out: &mut Manifold<N>,
-    ) {
-        let a_from_b = self.world_from_a.relative(self.world_from_b);
-        let best = separate_boxes(half_a, half_b, &a_from_b, self.margin, cache.feature);
-        cache.normal = best.normal;
-        cache.feature = best.feature;
-        if best.separation > self.margin || !best.separation.is_finite() {
-            return;
-        }
-        let (a, b) = self.sides();
-        let memory = &mut cache.patch;
-        patch::build(&a, &b, &a_from_b, best.normal, self.margin, memory, &mut scratch.patch, out);
-    }
-
-    /// Two cores that are points or segments: balls and capsules.
-    fn segments(&self, half_a: Vector<N>, half_b: Vector<N>, cache: &mut PairCache<N>, out: &mut Manifold<N>) {
-        let segment = |pose: &Pose<N>, half| Segment { middle: pose.translation, half: pose.rotation.rotate(half) };
-        let (a, b) = (segment(self.world_from_a, half_a), segment(self.world_from_b, half_b));
-        let wish = self.world_from_a.rotation.rotate(cache.normal);
-        let witness = round::segments(&a, &b, wish);
-        self.single(&witness, cache, out);
-        let Some(stretch) = round::side_by_side(&a, &b) else { return };
-        if out.is_empty() {
-            return;
-        }
-        let single = *out;
-        out.clear();
-        out.normal = single.normal;
-        let mut least = f64::INFINITY;
-        for (end, (on_a, on_b)) in round::ends(&a, &b, stretch).into_iter().enumerate() {
-            let separation = (on_b - on_a).dot(witness.normal);
-            least = least.min(separation);
-            self.push(&Witness { on_a, on_b, separation, ..witness }, end as u32 + 1, out);
-        }
-        // Both ends rise from where the segments are closest: only the closest point tells the depth.
-        if least > witness.separation + crate::limits::EQUAL_DEPTH * (half_a.norm() + half_b.norm()) {
-            *out = single;
-        }
-    }
-
-    /// One contact point at the witness.
-    fn single(&self, witness: &Witness<N>, cache: &mut PairCache<N>, out: &mut Manifold<N>) {
-        cache.normal = self.world_from_a.rotation.inverse_rotate(witness.normal);
-        self.push(witness, 0, out);
-    }
-
-    /// Adds a witness given in the world if it is within the margin.
-    fn push(&self, witness: &Witness<N>, id: u32, out: &mut Manifold<N>) {
-        let separation = witness.separation - self.a.radius - self.b.radius;
-        if separation <= self.margin {
-            out.normal = witness.normal;
-            let lean = witness.normal * (0.5 * (self.a.radius - self.b.radius));
-            let position = (witness.on_a + witness.on_b) * 0.5 + lean;
-            out.push(ContactPoint { position, separation, id });
-        }
-    }
-}
-
-impl<const N: usize> Witness<N> {
-    fn transformed(&self, target_from_here: &Pose<N>) -> Self {
-        Self {
-            normal: target_from_here.rotation.rotate(self.normal),
-            on_a: target_from_here.transform_point(self.on_a),
-            on_b: target_from_here.transform_point(self.on_b),
-            separation: self.separation,
-        }
-    }
-
-    fn flipped(&self) -> Self {
-        Self { normal: -self.normal, on_a: self.on_b, on_b: self.on_a, separation: self.separation }
-    }
 }

@@ -33,6 +33,8 @@ pub(crate) struct PatchScratch<const N: usize> {
     small: Clipper<N, SMALL>,
     large: Clipper<N, LARGE>,
     pub(crate) reducer: Reducer<N>,
+    /// Most vertices left after cutting a patch.
+    pub(crate) most_vertices: u32,
 }
 
 /// What is left of the previous step's patch.
@@ -126,10 +128,16 @@ pub(crate) fn build<const N: usize>(
             margin,
         }
     };
-    let PatchScratch { small, large, reducer } = scratch;
+    let PatchScratch { small, large, reducer, most_vertices } = scratch;
     let constraints =
         plan.incident.faces.neighbour_count(plan.incident_facet) + plan.reference.faces.neighbour_count(plan.facet);
-    let least = if constraints <= 64 * SMALL { plan.clip(small, reducer) } else { plan.clip(large, reducer) }?;
+    let (least, vertices) = if constraints <= 64 * SMALL {
+        (plan.clip(small, reducer), small.vertices.len())
+    } else {
+        (plan.clip(large, reducer), large.vertices.len())
+    };
+    let least = least?;
+    *most_vertices = (*most_vertices).max(vertices as u32);
     reducer.reduce(max_points(N), memory.previous_ids(), a.extent.min(b.extent));
     let sign = if reference_is_b { -1.0 } else { 1.0 };
     let world = plan.reference.world_from_core;

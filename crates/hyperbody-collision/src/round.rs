@@ -1,7 +1,7 @@
 //! Closed forms: balls and capsules against each other, balls against boxes.
 
-use hyperbody_geometry::Core;
-use hyperbody_math::Vector;
+use hyperbody_geometry::{Core, Polytope};
+use hyperbody_math::{Pose, Vector};
 
 /// Closest points of two cores and the direction between them, in any one frame.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +12,23 @@ pub(crate) struct Witness<const N: usize> {
     pub(crate) on_b: Vector<N>,
     /// Along the normal; negative if the cores overlap.
     pub(crate) separation: f64,
+}
+
+impl<const N: usize> Witness<N> {
+    /// The same in the target frame.
+    pub(crate) fn transformed(&self, target_from_here: &Pose<N>) -> Self {
+        Self {
+            normal: target_from_here.rotation.rotate(self.normal),
+            on_a: target_from_here.transform_point(self.on_a),
+            on_b: target_from_here.transform_point(self.on_b),
+            separation: self.separation,
+        }
+    }
+
+    /// The same with a and b exchanged.
+    pub(crate) fn flipped(&self) -> Self {
+        Self { normal: -self.normal, on_a: self.on_b, on_b: self.on_a, separation: self.separation }
+    }
 }
 
 /// A direction to use where geometry leaves it open: `wish` if it is one, or else the first axis.
@@ -30,7 +47,7 @@ pub(crate) fn points<const N: usize>(on_a: Vector<N>, on_b: Vector<N>, wish: Vec
 
 /// The box |x_i| ≤ h_i (a) and a point (b), in the frame of the box: the clamped point, or from inside the facet of
 /// least depth.
-pub(crate) fn box_and_point<const N: usize>(half_extents: &Vector<N>, point: Vector<N>) -> Witness<N> {
+fn box_and_point<const N: usize>(half_extents: &Vector<N>, point: Vector<N>) -> Witness<N> {
     let clamped = point.min(*half_extents).max(-*half_extents);
     if let Some(normal) = (point - clamped).try_normalize() {
         return Witness { normal, on_a: clamped, on_b: point, separation: (point - clamped).dot(normal) };
@@ -46,6 +63,30 @@ pub(crate) fn box_and_point<const N: usize>(half_extents: &Vector<N>, point: Vec
     on_a[along] = sign * half_extents[along];
     let separation = point[along].abs() - half_extents[along];
     Witness { normal: Vector::unit(along) * sign, on_a, on_b: point, separation }
+}
+
+/// A core (a) and a point (b), in the frame of the core, where there is a closed form: `None` for a point outside a
+/// polytope.
+pub(crate) fn nearest_known<const N: usize>(core: &Core<N>, point: Vector<N>) -> Option<Witness<N>> {
+    match core {
+        Core::Box { half_extents } => Some(box_and_point(half_extents, point)),
+        Core::Polytope(polytope) => point_in_polytope(polytope, point),
+        Core::Point | Core::Segment { .. } => None,
+    }
+}
+
+/// A polytope (a) and a point (b) inside it, in the frame of the polytope: the facet of least depth. `None` if the
+/// point is outside by more than `tolerance`.
+fn point_in_polytope<const N: usize>(polytope: &Polytope<N>, point: Vector<N>) -> Option<Witness<N>> {
+    let mut best: Option<(Vector<N>, f64)> = None;
+    for facet in polytope.facets() {
+        let separation = facet.normal.dot(point) - facet.offset;
+        if best.is_none_or(|(_, most)| separation > most) {
+            best = Some((facet.normal, separation));
+        }
+    }
+    let (normal, separation) = best?;
+    (separation <= 0.0).then(|| Witness { normal, on_a: point - normal * separation, on_b: point, separation })
 }
 
 /// A segment by its middle and half its extent; a point has none.
@@ -103,8 +144,12 @@ fn crossing<const N: usize>(a: &Segment<N>, b: &Segment<N>, witness: &Witness<N>
         }
     };
     let (first, second) = (a.half.normalize_or_zero(), b.half.normalize_or_zero());
-    let second_part = (second - first * first.dot(second)).normalize_or_zero();
-    let first_part = (first - second * second.dot(first)).normalize_or_zero();
+    // What is left of parallel segments is rounding, and no direction.
+    let across = |v: Vector<N>, along: Vector<N>| {
+        let rest = v - along * along.dot(v);
+        if rest.norm_sq() > crate::limits::PARALLEL_SQ { rest.normalize_or_zero() } else { Vector::ZERO }
+    };
+    let (second_part, first_part) = (across(second, first), across(first, second));
     // Perpendicular to one segment inside their common plane, for the plane; perpendicular to both beyond it.
     for direction in [second_part, first_part] {
         if direction != Vector::ZERO {
@@ -120,10 +165,19 @@ fn crossing<const N: usize>(a: &Segment<N>, b: &Segment<N>, witness: &Witness<N>
         }
     }
     let Some((normal, separation)) = best else { return *witness };
-    // The deepest points along the normal that lie opposite each other are the crossing point itself, moved apart.
-    let middle = (witness.on_a + witness.on_b) * 0.5;
-    let apart = normal * (0.5 * separation);
-    Witness { normal, on_a: middle - apart, on_b: middle + apart, separation }
+    let (reach_a, reach_b) = (a.half.dot(normal), b.half.dot(normal));
+    // Along the perpendicular of one, the end of the other is deepest; beyond their plane it is the crossing itself.
+    let rounding = CROSSING * (a.half.norm() + b.half.norm());
+    let (on_a, on_b) = if reach_a.abs() > reach_b.abs() + rounding {
+        let on_a = a.at(reach_a.signum());
+        (on_a, b.at(b.closest(on_a)))
+    } else if reach_b.abs() > reach_a.abs() + rounding {
+        let on_b = b.at(-reach_b.signum());
+        (a.at(a.closest(on_b)), on_b)
+    } else {
+        (witness.on_a, witness.on_b)
+    };
+    Witness { normal, on_a, on_b, separation }
 }
 
 /// The parameters on segment a between which the two segments run side by side, or `None` unless they are parallel to
@@ -146,13 +200,4 @@ pub(crate) fn ends<const N: usize>(a: &Segment<N>, b: &Segment<N>, stretch: [f64
         let on_a = a.at(parameter);
         (on_a, b.at(b.closest(on_a)))
     })
-}
-
-/// The segment of a core that is a point or a segment.
-pub(crate) fn as_segment<const N: usize>(core: &Core<N>) -> Option<Vector<N>> {
-    match core {
-        Core::Point => Some(Vector::ZERO),
-        Core::Segment { half } => Some(*half),
-        Core::Box { .. } | Core::Polytope(_) => None,
-    }
 }

@@ -1,11 +1,10 @@
-//! How fast the free rotation is: nanoseconds per step (the world's step in every dimension, the methods of the laboratory
-//! in 4D; each the best of twenty batches, which other work on the machine disturbs least), a million steps of one 4D top
-//! on one thread, and a stability map of 400 × 400 cells with measured growth on all threads.
+//! Nanoseconds per step of the free rotation: the world's step in every dimension, the methods of the laboratory in 4D.
+//! Each figure is the best of twenty batches, which other work on the machine disturbs least.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-use hyperbody_dynamics::free_top::{FreeTop, MapRange, Method, TopState, free_rotation_step, map_spins};
+use hyperbody_dynamics::free_top::{FreeTop, Method, TopState, free_rotation_step};
 use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
 const BATCHES: usize = 20;
@@ -47,28 +46,7 @@ fn time_method<const N: usize>(method: Method) {
     println!("{:<24} {N}D {best:6.0} ns per step", method.name());
 }
 
-fn time_a_million_steps() {
-    let top = FreeTop::new(moments::<4>()).expect("positive moments");
-    let mut state = TopState { world_from_body: Rotation::IDENTITY, momentum_in_body: momentum::<4>() };
-    let start = Instant::now();
-    for _ in 0..1_000_000 {
-        Method::Splitting2.step(&top, &mut state, DT).expect("the splitting always succeeds");
-    }
-    println!("a million steps of splitting2 in 4D: {:.3} s", start.elapsed().as_secs_f64());
-    black_box(state);
-}
-
-fn time_a_map() {
-    let top = FreeTop::new(moments::<4>()).expect("positive moments");
-    let range = MapRange::new(-1.5, 1.5, 400).expect("a range");
-    let start = Instant::now();
-    let map = map_spins(&top, [(0, 3), (1, 2)], range, range, &|_, _| {}).expect("a map");
-    println!("a map of {} cells with measured growth: {:.2} s", map.cells.len(), start.elapsed().as_secs_f64());
-}
-
 fn main() {
-    time_a_million_steps();
-    time_a_map();
     time_world_step::<2>();
     time_world_step::<3>();
     time_world_step::<4>();

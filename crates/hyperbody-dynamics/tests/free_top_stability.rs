@@ -214,7 +214,6 @@ fn isoclinic_turns_are_left_open() {
             assert_eq!(judged.verdict.stable(), None, "{pair:?}");
             assert_eq!(judged.growth_rate, 0.0);
             assert!(judged.why.contains("isoclinic"), "{}", judged.why);
-            assert_eq!(judged.why.contains("unequal rates are unstable"), pair[0] == (0, 2), "{}", judged.why);
         }
     }
     // A body with four equal moments turns steadily whatever the spin.

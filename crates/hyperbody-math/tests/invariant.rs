@@ -6,10 +6,10 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use common::{Random, assert_within};
-use hyperbody_math::{Bivector, InvariantPlanes, Matrix, Rotation, Vector, symmetric_eigen};
+use hyperbody_math::{Bivector, InvariantPlanes, Matrix, Rotation, symmetric_eigen};
 
 mod every_dimension {
-    crate::common::in_every_dimension!(random_bivectors chosen_bivectors chosen_rotations sign_changes extremes);
+    crate::common::in_every_dimension!(random_bivectors chosen_bivectors chosen_rotations extremes);
 }
 
 fn check_form<const N: usize>(planes: &InvariantPlanes<N>) {
@@ -132,23 +132,6 @@ fn chosen_rotations<const N: usize>() {
             for (value, expected) in found.values().iter().zip(&expected) {
                 assert_within((value.abs() - expected).abs(), 8e-15, "angle");
             }
-        }
-    }
-}
-
-/// Diagonal matrices of ±1: turns by exactly π beside axes that rest exactly, where neither sines nor cosines pair anything.
-fn sign_changes<const N: usize>() {
-    let mut random = Random::new(45);
-    for mask in (0..1u32 << N).filter(|mask| mask.count_ones().is_multiple_of(2)) {
-        let signs = Vector::from_fn(|i| if mask >> i & 1 == 1 { -1.0 } else { 1.0 });
-        let aligned = Rotation::from_matrix(Matrix::from_diagonal(signs)).expect("a rotation");
-        let frame = random.rotation::<N>();
-        for rotation in [aligned, frame * aligned * frame.inverse()] {
-            let found = rotation.invariant_planes();
-            check_form(&found);
-            let half_turns = found.values().iter().filter(|value| (value.abs() - PI).abs() < 1e-14).count();
-            assert_eq!(half_turns, mask.count_ones() as usize / 2);
-            assert_within((*found.to_rotation().matrix() - *rotation.matrix()).max_abs(), 4e-15, "rebuilt rotation");
         }
     }
 }

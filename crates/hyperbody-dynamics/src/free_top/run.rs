@@ -10,10 +10,10 @@ use super::method::Method;
 use super::state::TopState;
 use super::top::FreeTop;
 
-/// Most steps of one run: hours of computing.
+/// Most steps and most recorded samples of one run: an hour of computing, and a gigabyte.
 pub const MAX_STEPS: u64 = 10_000_000_000;
-/// Most recorded samples of one run: about a gigabyte in 6D.
-pub const MAX_SAMPLES: u64 = 1_000_000;
+/// See [`MAX_STEPS`].
+pub const MAX_SAMPLES: u64 = 2_000_000;
 
 /// Halvings of a step that error control may ask for: a step a million times shorter.
 const MAX_HALVINGS: u32 = 20;

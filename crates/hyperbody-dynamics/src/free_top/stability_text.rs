@@ -22,7 +22,7 @@ pub(crate) fn why<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) ->
     let reason = match stability.verdict {
         Verdict::Stable => why_stable(top, stability),
         Verdict::Unstable => why_unstable(top, stability),
-        Verdict::Open => why_open(top, stability),
+        Verdict::Open => why_open(stability),
     };
     if stability.disturbance > 0.0 {
         format!(
@@ -135,24 +135,18 @@ fn pair_reason<const N: usize>(top: &FreeTop<N>, first: PrincipalTurn, second: P
     }
 }
 
-fn why_open<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> String {
+fn why_open<const N: usize>(stability: &Stability<N>) -> String {
     let is_open = |block: &&Block| matches!(block.kind, BlockKind::Isoclinic | BlockKind::Drifting);
     let Some(block) = stability.blocks.iter().find(is_open) else {
         return "the linear problem does not decide".to_owned();
     };
     match (block.kind, block.partner) {
-        (BlockKind::Isoclinic, Partner::Turn(other)) => {
-            // At nearly equal rates D decides: its sign is that of the four asymmetries.
-            let (first, r) = (block.turn, |i, j| top.asymmetry(i, j));
-            let product = r(first.i, other.i) * r(first.i, other.j) * r(first.j, other.i) * r(first.j, other.j);
-            let neighbours = if product < 0.0 { ", while unequal rates are unstable" } else { "" };
-            format!(
-                "{} and {} turn at the same rate: an isoclinic spin can be tilted to other steady spins at no cost, so the \
-                 linear problem does not decide{neighbours}",
-                name(first),
-                name(other)
-            )
-        }
+        (BlockKind::Isoclinic, Partner::Turn(other)) => format!(
+            "{} and {} turn at the same rate: an isoclinic spin can be tilted to other steady spins at no cost, so the \
+             linear problem does not decide",
+            name(block.turn),
+            name(other)
+        ),
         (_, Partner::IdleAxis(axis)) => {
             let PrincipalTurn { i, j, .. } = block.turn;
             format!(

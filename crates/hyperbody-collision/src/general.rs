@@ -1,0 +1,249 @@
+//! Two cores of any kind: distance search, and where they overlap the way out.
+
+use hyperbody_geometry::Core;
+use hyperbody_math::Vector;
+
+use crate::box_sat::{Feature, separate_boxes};
+use crate::difference::Difference;
+use crate::epa::Penetration;
+use crate::gjk::{self, Closest, Proximity, Seeds};
+use crate::manifold::{ContactPoint, Manifold, max_points};
+use crate::narrow::{PairCache, Scratch};
+use crate::overlap::{self, WayOut};
+use crate::pair::Pair;
+use crate::round::Witness;
+use crate::simplex::Simplex;
+use crate::{epa, limits, patch};
+
+/// Contacts of a pair about which nothing is known but what the cache holds.
+pub(crate) fn collide<const N: usize>(
+    pair: &Pair<'_, N>,
+    cache: &mut PairCache<N>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) {
+    let a_from_b = pair.world_from_a.relative(pair.world_from_b);
+    let difference = Difference::new(&pair.a.core, &pair.b.core, &a_from_b);
+    if cache.feature != Feature::None && resting_overlap(pair, &difference, cache, scratch, out) {
+        return;
+    }
+    collide_known(pair, &difference, cache, scratch, out);
+}
+
+/// The same for a pair whose shapes were looked at already: straight to the distance search.
+pub(crate) fn collide_known<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    cache: &mut PairCache<N>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) {
+    out.clear();
+    let centres = difference.a_from_b.translation;
+    let toward_b = if cache.normal == Vector::ZERO { centres } else { cache.normal };
+    let mut turns = 0;
+    let proximity = gjk::closest(difference, &cache.seeds, toward_b, pair.margin + pair.rounding, &mut turns);
+    scratch.effort.gjk_turns = scratch.effort.gjk_turns.max(turns);
+    scratch.effort.gjk_runs += 1;
+    match proximity {
+        Proximity::Apart { normal } => {
+            cache.normal = normal;
+            cache.feature = Feature::None;
+            cache.seeds = Seeds::default();
+        }
+        Proximity::Near(closest) => near(pair, difference, &closest, cache, scratch, out),
+        Proximity::Overlap(simplex) => deep(pair, difference, &simplex, cache, scratch, out),
+    }
+}
+
+/// Disjoint cores within the margin.
+fn near<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    closest: &Closest<N>,
+    cache: &mut PairCache<N>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) {
+    cache.normal = closest.normal;
+    cache.feature = Feature::None;
+    cache.seeds = Seeds::of(closest.simplex.vertices());
+    let [on_a, on_b] = closest.simplex.witnesses(difference);
+    let witness = Witness { normal: closest.normal, on_a, on_b, separation: closest.distance };
+    let flat = !matches!((&pair.a.core, &pair.b.core), (Core::Point, _) | (_, Core::Point));
+    let shown = if flat { build(pair, difference, closest.normal, cache, scratch, out) } else { None };
+    complete(pair, difference, &witness, shown, scratch, out);
+}
+
+/// An overlap that was one in the previous step too: the best facet normal or the facet of D that won then, if it can
+/// be shown to be good enough without a search. `false` leaves the pair to the search.
+fn resting_overlap<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    cache: &mut PairCache<N>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) -> bool {
+    if pair.rounding > 0.0 {
+        return false;
+    }
+    let thickness = overlap::thickness(difference);
+    let facet = overlap::best_facet(difference, thickness, cache.feature);
+    let mixed = if cache.feature == Feature::Mixed {
+        overlap::known_facet(difference, cache.seeds.keys(), cache.normal)
+    } else {
+        None
+    };
+    let leave_at = |way: &WayOut<N>| overlap::worth_leaving_facet(way.depth, thickness, cache.feature);
+    let (way, enough) = match (facet, mixed) {
+        (Some(facet), Some(mixed)) if mixed.depth >= leave_at(&facet) => (facet, leave_at(&facet)),
+        (_, Some(mixed)) => (mixed, mixed.depth),
+        (Some(facet), None) => (facet, leave_at(&facet)),
+        (None, None) => return false,
+    };
+    if way.depth <= 0.0 {
+        return false;
+    }
+    let shown = build(pair, difference, way.normal, cache, scratch, out);
+    if !shown.is_some_and(|shown| shown <= -way.depth + patch_tolerance(difference, way.depth)) {
+        return false;
+    }
+    let bound = overlap::least_possible_depth(difference, pair.world_from_a, out);
+    let same = way.feature == cache.feature && way.facet == cache.facet;
+    let confirmed = bound >= enough;
+    let trusted = same && cache.unconfirmed < limits::RECHECK_AFTER && bound >= limits::RECHECK_FRACTION * way.depth;
+    if confirmed || trusted {
+        cache.unconfirmed = if confirmed { 0 } else { cache.unconfirmed + 1 };
+        (cache.normal, cache.feature, cache.facet) = (way.normal, way.feature, way.facet);
+    }
+    confirmed || trusted
+}
+
+/// Overlapping cores, by the full search.
+fn deep<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    simplex: &Simplex<N>,
+    cache: &mut PairCache<N>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) {
+    cache.unconfirmed = 0;
+    cache.seeds = Seeds::default();
+    let thickness = overlap::thickness(difference);
+    let facet = preferred_facet(pair, difference, thickness, cache);
+    let enough = facet.map_or(f64::INFINITY, |way| overlap::worth_leaving_facet(way.depth, thickness, cache.feature));
+    let boxes = matches!((&pair.a.core, &pair.b.core), (Core::Box { .. }, Core::Box { .. }));
+    let mut found = None;
+    if !boxes {
+        found = Some(search(difference, simplex, enough, scratch));
+    }
+    // A facet normal that is nearly best shows the contact, or else the best does.
+    if let Some(way) = facet.filter(|_| found.is_none_or(|found| found.at_least >= enough || found.depth >= enough)) {
+        (cache.normal, cache.feature, cache.facet) = (way.normal, way.feature, way.facet);
+        let shown = build(pair, difference, way.normal, cache, scratch, out);
+        if shown.is_some_and(|shown| shown <= -way.depth + patch_tolerance(difference, way.depth)) {
+            return;
+        }
+        found = Some(search(difference, simplex, f64::INFINITY, scratch));
+    }
+    let Some(found) = found else { return };
+    (cache.normal, cache.feature, cache.facet) = (found.normal, Feature::Mixed, 0);
+    cache.seeds = found.facet.map_or_else(Seeds::default, |vertices| Seeds::of(&vertices));
+    let witness = deepest(difference, &found);
+    let shown = build(pair, difference, found.normal, cache, scratch, out);
+    complete(pair, difference, &witness, shown, scratch, out);
+}
+
+/// The best facet normal of the two, or for boxes the best separating axis of any kind.
+fn preferred_facet<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    thickness: f64,
+    cache: &PairCache<N>,
+) -> Option<WayOut<N>> {
+    if let (Core::Box { half_extents: half_a }, Core::Box { half_extents: half_b }) = (&pair.a.core, &pair.b.core) {
+        let axis = separate_boxes(half_a, half_b, difference.a_from_b, f64::INFINITY, cache.feature).best;
+        return Some(WayOut { normal: axis.normal, depth: -axis.separation, feature: axis.feature, facet: 0 });
+    }
+    overlap::best_facet(difference, thickness, cache.feature)
+}
+
+fn search<const N: usize>(
+    difference: &Difference<'_, N>,
+    simplex: &Simplex<N>,
+    enough: f64,
+    scratch: &mut Scratch<N>,
+) -> Penetration<N> {
+    let (found, cost) = epa::penetrate(difference, simplex.vertices(), enough, &mut scratch.hull);
+    scratch.effort.epa_runs += 1;
+    scratch.effort.epa_vertices = scratch.effort.epa_vertices.max(cost.vertices);
+    scratch.effort.epa_facets = scratch.effort.epa_facets.max(cost.facets);
+    found
+}
+
+/// Where the cores are deepest along a way out: the foot of the origin on the facet of D, or else the middle between
+/// the farthest vertices.
+fn deepest<const N: usize>(difference: &Difference<'_, N>, way: &Penetration<N>) -> Witness<N> {
+    let foot = way.facet.and_then(|vertices| Simplex::foot_on(&vertices));
+    let [on_a, on_b] = match foot {
+        Some(foot) => foot.clamped().witnesses(difference),
+        None => difference.vertices(difference.support(way.normal).key),
+    };
+    // Midway, and apart along the normal by the depth.
+    let middle = (on_a + on_b) * 0.5;
+    let half = way.normal * (0.5 * way.depth);
+    Witness { normal: way.normal, on_a: middle + half, on_b: middle - half, separation: -way.depth }
+}
+
+fn build<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    normal: Vector<N>,
+    cache: &mut PairCache<N>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) -> Option<f64> {
+    let (a, b) = pair.sides();
+    out.clear();
+    let memory = &mut cache.patch;
+    patch::build(&a, &b, difference.a_from_b, normal, pair.margin, memory, &mut scratch.patch, out)
+}
+
+/// How much less deep than the way out a patch may be and still show the contact.
+fn patch_tolerance<const N: usize>(difference: &Difference<'_, N>, depth: f64) -> f64 {
+    limits::EQUAL_DEPTH * difference.smaller + limits::FACET_PREFERENCE_RELATIVE * depth.abs()
+}
+
+/// Adds the witness (in a's frame) unless the patch shows the contact.
+fn complete<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    witness: &Witness<N>,
+    shown: Option<f64>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) {
+    let tolerance = patch_tolerance(difference, witness.separation);
+    if shown.is_some_and(|shown| shown <= witness.separation + tolerance) {
+        return;
+    }
+    let mut alone = Manifold::EMPTY;
+    pair.push(&witness.transformed(pair.world_from_a), WITNESS_ID, &mut alone);
+    let Some(&point) = alone.points().first() else { return };
+    scratch.effort.witness_points += 1;
+    out.normal = alone.normal;
+    put_first(point, out);
+}
+
+/// Name of the point that only the closest or deepest points show.
+const WITNESS_ID: u32 = 0x5157_0001;
+
+/// Adds a point; a full manifold gives up its last.
+fn put_first<const N: usize>(point: ContactPoint<N>, out: &mut Manifold<N>) {
+    if out.points().len() < max_points(N) {
+        out.push(point);
+    } else if let Some(last) = out.points_mut().last_mut() {
+        *last = point;
+    }
+}

@@ -1,0 +1,108 @@
+//! What is true of two shapes, found from vertices and facets alone: no distance search, no separating axes, no
+//! penetration search.
+
+use hyperbody_geometry::shape::Piece;
+use hyperbody_geometry::{Convex, Core, Polytope};
+use hyperbody_math::{Pose, Vector};
+
+/// The vertices of a core in the world.
+pub fn vertices<const N: usize>(core: &Core<N>, pose: &Pose<N>) -> Vec<Vector<N>> {
+    let local: Vec<Vector<N>> = match core {
+        Core::Point => vec![Vector::ZERO],
+        Core::Segment { half } => vec![*half, -*half],
+        Core::Box { half_extents } => (0..1 << N)
+            .map(|bits: usize| Vector::from_fn(|i| if bits >> i & 1 == 0 { half_extents[i] } else { -half_extents[i] }))
+            .collect(),
+        Core::Polytope(polytope) => polytope.vertices().to_vec(),
+    };
+    local.into_iter().map(|v| pose.transform_point(v)).collect()
+}
+
+/// Two convex pieces in the world, by their vertices.
+pub struct Truth<'a, const N: usize> {
+    pub a: &'a Convex<N>,
+    pub b: &'a Convex<N>,
+    pub pose_a: Pose<N>,
+    pub pose_b: Pose<N>,
+    vertices_a: Vec<Vector<N>>,
+    vertices_b: Vec<Vector<N>>,
+    pub rounding: f64,
+    /// Sum of the bounding radii.
+    pub scale: f64,
+}
+
+pub fn convex<const N: usize>(piece: &Piece<N>) -> &Convex<N> {
+    match piece {
+        Piece::Convex(convex) => convex,
+        Piece::HalfSpace { .. } => panic!("the oracle is for bounded shapes"),
+    }
+}
+
+impl<'a, const N: usize> Truth<'a, N> {
+    pub fn new(a: &'a Convex<N>, pose_a: &Pose<N>, b: &'a Convex<N>, pose_b: &Pose<N>) -> Self {
+        Self {
+            a,
+            b,
+            pose_a: *pose_a,
+            pose_b: *pose_b,
+            vertices_a: vertices(&a.core, pose_a),
+            vertices_b: vertices(&b.core, pose_b),
+            rounding: a.radius + b.radius,
+            scale: a.bounding_radius() + b.bounding_radius(),
+        }
+    }
+
+    /// Separation of the cores along a unit direction from a to b.
+    pub fn separation(&self, n: Vector<N>) -> f64 {
+        let lowest_b = self.vertices_b.iter().map(|v| v.dot(n)).fold(f64::INFINITY, f64::min);
+        let highest_a = self.vertices_a.iter().map(|v| v.dot(n)).fold(f64::NEG_INFINITY, f64::max);
+        lowest_b - highest_a
+    }
+
+    /// The exact least depth of the cores, from the hull of all differences of vertices; `None` if that hull has too
+    /// many points for a test, is flat, or does not hold the origin.
+    pub fn least_depth(&self, most_points: usize) -> Option<f64> {
+        if self.vertices_a.len() * self.vertices_b.len() > most_points {
+            return None;
+        }
+        let mut points = Vec::new();
+        for a in &self.vertices_a {
+            points.extend(self.vertices_b.iter().map(|b| *a - *b));
+        }
+        let hull = Polytope::from_points(&points).ok()?;
+        let depth = hull.facets().iter().map(|facet| facet.offset).fold(f64::INFINITY, f64::min);
+        (depth > 0.0).then_some(depth)
+    }
+
+    /// The lesser inner radius about the origins of those cores that have one.
+    pub fn thickness(&self) -> f64 {
+        let solid =
+            [self.a, self.b].into_iter().filter(|convex| matches!(convex.core, Core::Box { .. } | Core::Polytope(_)));
+        let least = solid.map(|convex| (-outside(&convex.core, Vector::ZERO)).max(0.0)).fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least } else { 0.0 }
+    }
+
+    /// How far a point of the world is outside shape a, at least.
+    pub fn outside_a(&self, point: Vector<N>) -> f64 {
+        outside(&self.a.core, self.pose_a.inverse_transform_point(point)) - self.a.radius
+    }
+
+    /// How far a point of the world is outside shape b, at least.
+    pub fn outside_b(&self, point: Vector<N>) -> f64 {
+        outside(&self.b.core, self.pose_b.inverse_transform_point(point)) - self.b.radius
+    }
+}
+
+fn outside<const N: usize>(core: &Core<N>, p: Vector<N>) -> f64 {
+    match core {
+        Core::Point => p.norm(),
+        Core::Segment { half } => {
+            let t = (p.dot(*half) / half.norm_sq()).clamp(-1.0, 1.0);
+            p.distance(*half * t)
+        }
+        Core::Box { half_extents } => (0..N).map(|i| p[i].abs() - half_extents[i]).fold(f64::NEG_INFINITY, f64::max),
+        Core::Polytope(polytope) => {
+            polytope.facets().iter().map(|f| f.normal.dot(p) - f.offset).fold(f64::NEG_INFINITY, f64::max)
+        }
+    }
+}
