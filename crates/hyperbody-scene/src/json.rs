@@ -150,6 +150,8 @@ fn syntax_error(text: &str, error: &serde_json::Error) -> SceneError {
         "a number is out of range; numbers go up to about 1.8e308".to_owned()
     } else if said.contains("recursion limit") {
         "nested deeper than 128 levels; no scene needs that".to_owned()
+    } else if said == "key must be a string" {
+        "not JSON: a key has to be a string in double quotes".to_owned()
     } else if said.starts_with("key \"") || said.starts_with("more than") {
         said.to_owned()
     } else {

@@ -5,7 +5,7 @@ use super::{Result, rotation, shape};
 use crate::error::{ErrorKind, SceneError, nearest};
 use crate::model::{Body, BodyKind, Joint};
 
-const BODY_KEYS: [&str; 15] = [
+pub(super) const BODY_KEYS: [&str; 15] = [
     "name",
     "kind",
     "shape",
@@ -24,7 +24,7 @@ const BODY_KEYS: [&str; 15] = [
 ];
 
 /// Joints that the format knows; those after the first are not built yet.
-const JOINTS: [&str; 6] = ["ball", "hinge", "weld", "slider", "distance", "motor"];
+pub(super) const JOINTS: [&str; 6] = ["ball", "hinge", "weld", "slider", "distance", "motor"];
 const SUPPORTED_JOINTS: usize = 1;
 
 pub(super) fn body(at: &At<'_>) -> Result<Body> {

@@ -12,9 +12,10 @@ use std::path::Path;
 
 use hyperbody::prelude::Material;
 
+use crate::dimension::DIMENSIONS;
 use crate::error::{ErrorKind, SceneError};
 use crate::json::Json;
-use crate::model::{NamedMaterial, Scene, default_gravity};
+use crate::model::{NamedMaterial, Scene};
 pub(crate) use cursor::{At, join};
 pub(crate) use shape::shape;
 
@@ -91,10 +92,12 @@ fn scene(at: &At<'_>, default_name: String) -> Result<Scene> {
     check_format(&entries)?;
     let fields = at.fields("a scene", &KEYS)?;
     let dimension = fields.required("dimension")?.count()? as usize;
-    let mut scene = Scene::new(default_name, dimension);
+    // A dimension out of range is refused where the world is built; nothing may grow with it before.
+    let mut scene = Scene::new(default_name, dimension.min(*DIMENSIONS.end()));
+    scene.dimension = dimension;
     scene.name = fields.or("name", scene.name, At::text)?;
     scene.description = fields.or("description", String::new(), At::text)?;
-    scene.gravity = fields.or("gravity", Vec::new(), At::coordinates)?;
+    scene.gravity = fields.or("gravity", scene.gravity, At::coordinates)?;
     scene.dt = fields.or("dt", scene.dt, At::number)?;
     scene.substeps = fields.or("substeps", scene.substeps, At::count)?;
     scene.sleeping = fields.or("sleeping", scene.sleeping, At::boolean)?;
@@ -103,10 +106,6 @@ fn scene(at: &At<'_>, default_name: String) -> Result<Scene> {
         fields.or("bodies", Vec::new(), |at| at.list("a list of bodies")?.iter().map(body::body).collect())?;
     scene.joints =
         fields.or("joints", Vec::new(), |at| at.list("a list of joints")?.iter().map(body::joint).collect())?;
-    if fields.optional("gravity").is_none() {
-        // A dimension out of range is refused where the world is built; no list may grow with it before.
-        scene.gravity = default_gravity(dimension.min(6));
-    }
     Ok(scene)
 }
 
@@ -144,4 +143,33 @@ fn materials(at: &At<'_>) -> Result<Vec<NamedMaterial>> {
         Ok(NamedMaterial { name, material })
     };
     at.entries("an object of materials by name")?.into_iter().map(material).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::AnyWorld;
+
+    fn documentation() -> String {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene-format.md");
+        std::fs::read_to_string(path).expect("the format is described in docs/scene-format.md")
+    }
+
+    #[test]
+    fn the_documented_example_is_a_good_scene() {
+        let page = documentation();
+        let example = page.split("```json").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
+        let scene = Scene::from_json(example).unwrap();
+        assert_eq!((scene.bodies.len(), scene.dimension), (4, 4));
+        AnyWorld::new(&scene, 1).unwrap();
+    }
+
+    #[test]
+    fn every_key_is_documented() {
+        let page = documentation();
+        let keys = KEYS.iter().chain(&body::BODY_KEYS).chain(&shape::SHAPES).chain(&body::JOINTS[..1]);
+        for key in keys {
+            assert!(page.contains(&format!("\n| `{key}` |")), "docs/scene-format.md has no row for `{key}`");
+        }
+    }
 }
