@@ -40,9 +40,12 @@ impl<const N: usize> World<N> {
             if !finite(&tight) {
                 continue;
             }
-            if !collider.fat_aabb.contains(&tight.grown(self.tuning.speculative_distance)) {
-                let margin = self.tuning.tree_margin.max(self.tuning.speculative_distance);
-                collider.fat_aabb = ahead(&tight, body.velocity * self.dt).grown(margin);
+            // All that the body can reach within the step; twice as far when the box is made anew.
+            let turning = body.angular_velocity.norm() * body.radius * self.dt;
+            let motion = body.velocity * self.dt;
+            let reach = self.tuning.speculative_distance + turning;
+            if !collider.fat_aabb.contains(&ahead(&tight, motion).grown(reach)) {
+                collider.fat_aabb = ahead(&tight, motion * 2.0).grown(self.tuning.tree_margin + reach);
                 collider.moved = true;
                 self.tree.update(proxy, collider.fat_aabb);
             }
@@ -118,6 +121,7 @@ impl<const N: usize> World<N> {
             normal_impulses: [0.0; hyperbody_collision::MAX_POINTS],
             friction_impulse: Vector::ZERO,
             twist_impulse: Bivector::ZERO,
+            recycled: None,
             cache: PairCache::default(),
         })
     }

@@ -1,13 +1,14 @@
 //! Where pairs touch: manifolds, and the impulses that carry over to them.
 
-use hyperbody_collision::{MAX_POINTS, Manifold, Scratch, collide};
+use hyperbody_collision::{ContactPoint, MAX_POINTS, Manifold, Scratch, collide};
+use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_math::Vector;
+use hyperbody_math::{Pose, Vector};
 use rayon::prelude::*;
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::Pair;
+use crate::pairs::{Pair, Recycled};
 use crate::world::Collider;
 use crate::{BodyHandle, World};
 
@@ -43,8 +44,13 @@ impl<const N: usize> ContactRef<'_, N> {
 impl<const N: usize> World<N> {
     /// Finds the manifold of every pair that may have changed, in parallel; each pair depends on its own past alone.
     pub(crate) fn update_manifolds(&mut self) {
-        let update =
-            Update { colliders: &self.colliders, bodies: &self.bodies, margin: self.tuning.speculative_distance };
+        let update = Update {
+            colliders: &self.colliders,
+            bodies: &self.bodies,
+            margin: self.tuning.speculative_distance,
+            recycle_distance: self.tuning.recycle_distance,
+            dt: self.dt,
+        };
         let slots = self.pairs.slots_mut();
         match &self.pool {
             None => {
@@ -117,6 +123,10 @@ struct Update<'a, const N: usize> {
     bodies: &'a Arena<Body<N>, BodyHandle>,
     /// m.
     margin: f64,
+    /// m.
+    recycle_distance: f64,
+    /// s.
+    dt: f64,
 }
 
 impl<const N: usize> Update<'_, N> {
@@ -134,19 +144,110 @@ impl<const N: usize> Update<'_, N> {
         if !(body_a.is_awake() || body_b.is_awake()) {
             return;
         }
+        let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
+        if let Some(kept) = &pair.recycled
+            && moved(&kept.a_from_b, &a_from_b, a.reach.max(b.reach)) <= self.recycle_distance
+        {
+            carry_along(kept, &mut pair.manifold, &a.world_from_collider, &b.world_from_collider);
+            return;
+        }
         let mut manifold = Manifold::default();
         collide(
             &a.piece,
             &a.world_from_collider,
             &b.piece,
             &b.world_from_collider,
-            self.margin,
+            self.margin + self.closing_distance(body_a, body_b),
             &mut pair.cache,
             scratch,
             &mut manifold,
         );
+        self.drop_unreached(&mut manifold, body_a, body_b);
         carry_over(pair, &manifold, self.margin);
         pair.manifold = manifold;
+        let keep = flat_faced(&a.piece) && flat_faced(&b.piece);
+        pair.recycled = keep.then(|| record(&manifold, a_from_b, &a.world_from_collider, &b.world_from_collider));
+    }
+}
+
+impl<const N: usize> Update<'_, N> {
+    /// How far any two points of the bodies can come closer within the step, m; at most.
+    fn closing_distance(&self, a: &Body<N>, b: &Body<N>) -> f64 {
+        let spin = |body: &Body<N>| {
+            if body.radius > 0.0 { body.angular_velocity.norm() * body.radius } else { 0.0 }
+        };
+        self.dt * ((b.velocity - a.velocity).norm() + spin(a) + spin(b))
+    }
+
+    /// Drops points that are neither near now nor reached within the step at the present velocities: a fast body is met
+    /// in time, and one that flies past is not.
+    fn drop_unreached(&self, manifold: &mut Manifold<N>, a: &Body<N>, b: &Body<N>) {
+        let reached = |point: &ContactPoint<N>| {
+            let velocity = |body: &Body<N>| body.velocity + body.angular_velocity.act_on(point.position - body.centre);
+            let closing = (velocity(a) - velocity(b)).dot(manifold.normal);
+            point.separation <= self.margin || point.separation <= closing * self.dt
+        };
+        if manifold.points().iter().all(reached) {
+            return;
+        }
+        let mut kept = Manifold::EMPTY;
+        kept.normal = manifold.normal;
+        for point in manifold.points().iter().filter(|point| reached(point)) {
+            kept.push(*point);
+        }
+        *manifold = kept;
+    }
+}
+
+/// Round shapes roll out from under their contact points, and theirs are cheap to find anew.
+fn flat_faced<const N: usize>(piece: &Piece<N>) -> bool {
+    match piece {
+        Piece::HalfSpace { .. } => true,
+        Piece::Convex(convex) => matches!(convex.core, Core::Box { .. } | Core::Polytope(_)),
+    }
+}
+
+/// How far any point of either, within `reach` of its frame's origin, moved against the other, m; at most.
+fn moved<const N: usize>(then: &Pose<N>, now: &Pose<N>, reach: f64) -> f64 {
+    let mut turned_sq = 0.0;
+    for i in 0..N {
+        turned_sq += (now.rotation.matrix().row(i) - then.rotation.matrix().row(i)).norm_sq();
+    }
+    now.translation.distance(then.translation) + turned_sq.sqrt() * reach
+}
+
+/// A manifold in the frames of its colliders.
+fn record<const N: usize>(
+    manifold: &Manifold<N>,
+    a_from_b: Pose<N>,
+    world_from_a: &Pose<N>,
+    world_from_b: &Pose<N>,
+) -> Recycled<N> {
+    let mut anchors = [(Vector::ZERO, Vector::ZERO); MAX_POINTS];
+    for (anchor, point) in anchors.iter_mut().zip(manifold.points()) {
+        let half_gap = manifold.normal * (0.5 * point.separation);
+        *anchor = (
+            world_from_a.inverse_transform_point(point.position - half_gap),
+            world_from_b.inverse_transform_point(point.position + half_gap),
+        );
+    }
+    Recycled { a_from_b, normal_in_a: world_from_a.rotation.inverse_rotate(manifold.normal), anchors }
+}
+
+/// Makes a manifold anew from its recorded form at the colliders' present poses.
+fn carry_along<const N: usize>(
+    kept: &Recycled<N>,
+    manifold: &mut Manifold<N>,
+    world_from_a: &Pose<N>,
+    world_from_b: &Pose<N>,
+) {
+    manifold.normal = world_from_a.rotation.rotate(kept.normal_in_a);
+    let normal = manifold.normal;
+    for (point, anchor) in manifold.points_mut().iter_mut().zip(&kept.anchors) {
+        let on_a = world_from_a.transform_point(anchor.0);
+        let on_b = world_from_b.transform_point(anchor.1);
+        point.position = (on_a + on_b) * 0.5;
+        point.separation = (on_b - on_a).dot(normal);
     }
 }
 

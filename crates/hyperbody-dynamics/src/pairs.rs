@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use hyperbody_collision::{MAX_POINTS, Manifold, PairCache};
-use hyperbody_math::{Bivector, Vector};
+use hyperbody_math::{Bivector, Pose, Vector};
 
 /// Two colliders that may touch.
 #[derive(Clone, Debug)]
@@ -29,8 +29,20 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) friction_impulse: Vector<N>,
     /// Warm start: twisting friction impulse on b over one substep, world frame, N·m·s.
     pub(crate) twist_impulse: Bivector<N>,
+    /// The contact as the bodies carry it along, if it may be kept.
+    pub(crate) recycled: Option<Recycled<N>>,
     /// What the narrow phase wants to keep.
     pub(crate) cache: PairCache<N>,
+}
+
+/// A manifold in the frames of its two colliders, from which it can be made anew while they hardly move.
+#[derive(Clone, Debug)]
+pub(crate) struct Recycled<const N: usize> {
+    /// When the manifold was computed.
+    pub(crate) a_from_b: Pose<N>,
+    pub(crate) normal_in_a: Vector<N>,
+    /// The two surfaces' points of each contact point.
+    pub(crate) anchors: [(Vector<N>, Vector<N>); MAX_POINTS],
 }
 
 /// All pairs of a world.

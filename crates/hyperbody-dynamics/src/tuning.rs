@@ -8,17 +8,22 @@ use crate::WorldError;
 /// spring, stiff enough to be invisible and soft enough that a tall stack converges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuning {
-    /// Frequency of the contact spring in Hz; capped at a quarter of the substep rate. Default 30. Higher makes
-    /// stacks stiffer and noisier.
+    /// Frequency of the contact spring in Hz; capped at a quarter of the substep rate. Default 45. A stack is an elastic
+    /// column: of blocks of edge 1 m it buckles under its own weight above about 15 blocks at 30 Hz and 20 at 45 Hz in 3D,
+    /// later in more dimensions, where faces have more corners; far above, neighbouring contacts start to ring.
     pub contact_hz: f64,
     /// Damping ratio of the contact spring; well over 1, so that overlap is removed without a bounce. Default 10.
     pub contact_damping_ratio: f64,
     /// Fastest speed at which overlap is pushed apart, m/s. Default 3: deep overlaps dissolve instead of exploding.
     pub push_out_speed: f64,
-    /// Overlap that is left alone, m. Default 0.005: resting contacts stay touching, so they keep their impulses.
+    /// Overlap that is left alone, m. Default 0.0005: resting contacts stay touching, so they keep their impulses.
     pub slop: f64,
     /// Contacts are made this far ahead of touching, m. Default 0.02. Must stay above `slop`.
     pub speculative_distance: f64,
+    /// A contact is kept, with its points carried along by the bodies, until one has moved this far against the other
+    /// since the contact was computed, m. Default 0.005. Keeps resting contacts from changing their points, and spares
+    /// most of the narrow phase in a settled pile. Below `speculative_distance`, or touching points would be missed.
+    pub recycle_distance: f64,
     /// Approach speed below which nothing bounces, m/s. Default 1: balls come to rest.
     pub restitution_threshold: f64,
     /// Frequency of the joint spring in Hz; capped at a quarter of the substep rate. Default 60.
@@ -42,11 +47,12 @@ pub struct Tuning {
 impl Default for Tuning {
     fn default() -> Self {
         Self {
-            contact_hz: 30.0,
+            contact_hz: 45.0,
             contact_damping_ratio: 10.0,
             push_out_speed: 3.0,
             slop: 0.0005,
             speculative_distance: 0.02,
+            recycle_distance: 0.005,
             restitution_threshold: 1.0,
             joint_hz: 60.0,
             joint_damping_ratio: 5.0,
@@ -81,11 +87,21 @@ impl Tuning {
                 )));
             }
         }
-        for (name, value) in [("restitution_threshold", self.restitution_threshold), ("sleep_speed", self.sleep_speed)]
-        {
+        let not_negative = [
+            ("recycle_distance", self.recycle_distance),
+            ("restitution_threshold", self.restitution_threshold),
+            ("sleep_speed", self.sleep_speed),
+        ];
+        for (name, value) in not_negative {
             if !(value >= 0.0 && value.is_finite()) {
                 return Err(WorldError::bad_number(format!("tuning.{name} is {value}; it must be finite, 0 or more")));
             }
+        }
+        if self.speculative_distance < self.recycle_distance {
+            return Err(WorldError::bad_number(format!(
+                "tuning.recycle_distance is {}, above tuning.speculative_distance {}; touching points would be missed",
+                self.recycle_distance, self.speculative_distance
+            )));
         }
         if self.speculative_distance < self.slop {
             return Err(WorldError::bad_number(format!(

@@ -54,6 +54,8 @@ pub(crate) struct Collider<const N: usize> {
     pub(crate) body_from_collider: Pose<N>,
     /// At the start of the current step.
     pub(crate) world_from_collider: Pose<N>,
+    /// Largest distance of a point of the piece from the origin of its frame, m; zero for half-spaces.
+    pub(crate) reach: f64,
     /// In the tree; `None` for half-spaces, which are unbounded and kept in a list.
     pub(crate) proxy: Option<u32>,
     /// The fattened box that the tree holds.
@@ -191,11 +193,16 @@ impl<const N: usize> World<N> {
                 (Aabb { lower: Vector::ZERO, upper: Vector::ZERO }, None)
             }
         };
+        let reach = match &piece {
+            Piece::Convex(convex) => convex.bounding_radius(),
+            Piece::HalfSpace { .. } => 0.0,
+        };
         self.colliders[slot as usize] = Some(Collider {
             body: body_slot,
             piece,
             body_from_collider,
             world_from_collider,
+            reach,
             proxy,
             fat_aabb,
             moved: true,
