@@ -1,15 +1,17 @@
 //! Running the program and looking at what it says.
 
+#![allow(dead_code, reason = "every test file uses a part of this")]
+
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
 /// The program, with its output captured.
-pub fn hyperbody(arguments: &[&str]) -> Output {
+pub(crate) fn hyperbody(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_hyperbody")).args(arguments).output().expect("the program was built for this test")
 }
 
 /// What the program printed as one JSON object; it has to succeed and to say nothing else.
-pub fn json_of(arguments: &[&str]) -> serde_json::Value {
+pub(crate) fn json_of(arguments: &[&str]) -> serde_json::Value {
     let output = hyperbody(arguments);
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{arguments:?} failed: {error}");
@@ -20,14 +22,14 @@ pub fn json_of(arguments: &[&str]) -> serde_json::Value {
 }
 
 /// The keys of a JSON object, sorted.
-pub fn keys(value: &serde_json::Value) -> Vec<&str> {
+pub(crate) fn keys(value: &serde_json::Value) -> Vec<&str> {
     let mut keys: Vec<&str> = value.as_object().expect("an object").keys().map(String::as_str).collect();
     keys.sort_unstable();
     keys
 }
 
 /// A file of its own for one test.
-pub fn file(name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+pub(crate) fn file(name: &str, content: impl AsRef<[u8]>) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder for temporary files can be made");
     std::fs::write(&path, content).expect("the folder for temporary files can be written");
