@@ -4,7 +4,7 @@ use hyperbody_dynamics::free_top::{
     Drift, DriftMeter, ExactMotion, FreeTop, FreeTopErrorKind, Invariants, MapRange, Method, RunPlan, TopRun, TopState,
     map_moments, map_spins, parse_spin, run,
 };
-use hyperbody_math::{Bivector, Rotation, Vector, planes};
+use hyperbody_math::{Bivector, Matrix, Rotation, Vector, planes};
 
 fn skew_spin<const N: usize>(rate: f64) -> Bivector<N> {
     let values: Vec<f64> = (0..planes::count(N)).map(|k| [1.0, 0.6, -0.4, 0.5, -0.7, 0.3, 0.8][k % 7]).collect();
@@ -42,11 +42,50 @@ fn splitting_keeps_energy_and_momentum_for_ten_minutes() {
 }
 
 #[test]
-fn midpoint_keeps_every_quadratic_integral_for_ten_minutes() {
+fn midpoint_keeps_every_integral_for_ten_minutes() {
     let drift = drift_near_the_unstable_plane(Method::Midpoint, 600.0);
-    let quadratic = [drift.energy, drift.momentum_sq, drift.pfaffian.expect("4D"), drift.manakov];
-    assert!(quadratic.iter().all(|&d| d <= 1e-12), "{drift:?}");
-    assert!(drift.momentum_in_world > 1e-10, "the attitude is of second order, this must show: {drift:?}");
+    let all = [drift.energy, drift.momentum_sq, drift.momentum_in_world, drift.pfaffian.expect("4D"), drift.manakov];
+    assert!(all.iter().all(|&d| d <= 1e-12), "{drift:?}");
+}
+
+/// tr (M + λP²)^k for k up to N and some λ: all of Manakov's integrals, those of higher degree included.
+fn traces<const N: usize>(top: &FreeTop<N>, momentum: &Bivector<N>) -> Vec<f64> {
+    let mut traces = Vec::new();
+    for lambda in [0.0, 0.03, 0.1, 0.3] {
+        let moments = top.principal_moments();
+        let squares = Matrix::from_diagonal(Vector::from_fn(|i| lambda * moments[i] * moments[i]));
+        let matrix = momentum.to_matrix() + squares;
+        let mut power = Matrix::IDENTITY;
+        for _ in 0..N {
+            power = power * matrix;
+            traces.push(power.trace());
+        }
+    }
+    traces
+}
+
+fn check_integrals_of_any_degree<const N: usize>(method: Method, dt: f64, tolerance: f64) {
+    let top = descending_top::<N>();
+    let start = at_rest_in_the_world(&top, &skew_spin(1.0));
+    let end = *follow(&top, &start, &RunPlan::new(method, 30.0, dt).expect("a plan")).final_state();
+    let moved = (end.momentum_in_body - start.momentum_in_body).norm() / start.momentum_in_body.norm();
+    assert!(moved > 0.1, "{N}D: the momentum has to move for this to say anything: {moved}");
+    let size = start.momentum_in_body.norm() + 0.3 * (N * N) as f64;
+    let (before, after) = (traces(&top, &start.momentum_in_body), traces(&top, &end.momentum_in_body));
+    for (index, (before, after)) in before.iter().zip(after).enumerate() {
+        let scale = size.powi(1 + (index % N) as i32);
+        assert!((after - before).abs() <= tolerance * scale, "{N}D, {}: {before} to {after}", method.name());
+    }
+}
+
+#[test]
+fn midpoint_keeps_integrals_of_any_degree_even_in_long_steps() {
+    check_integrals_of_any_degree::<3>(Method::Midpoint, 0.25, 1e-13);
+    check_integrals_of_any_degree::<4>(Method::Midpoint, 0.25, 1e-13);
+    check_integrals_of_any_degree::<5>(Method::Midpoint, 0.25, 1e-13);
+    check_integrals_of_any_degree::<6>(Method::Midpoint, 0.25, 1e-13);
+    // The exact flow keeps them, too.
+    check_integrals_of_any_degree::<6>(Method::Splitting6, 0.01, 1e-12);
 }
 
 #[test]

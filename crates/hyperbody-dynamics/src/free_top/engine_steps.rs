@@ -15,7 +15,8 @@ pub fn gyroscopic_step<const N: usize>(top: &FreeTop<N>, state: &mut TopState<N>
     let momentum = state.momentum_in_body;
     let residual = top.momentum_rate(&momentum) * dt;
     // The system is singular for no step in practice; if it is, the spin stays.
-    let change = solve_newton_system(top, &momentum, &residual, dt).unwrap_or(Bivector::ZERO);
+    let derivative = |direction: &Bivector<N>| momentum_rate_derivative(top, &momentum, direction) * dt;
+    let change = solve_newton_system(derivative, &residual).unwrap_or(Bivector::ZERO);
     advance(top, state, momentum + change, dt);
 }
 
@@ -23,6 +24,20 @@ pub fn gyroscopic_step<const N: usize>(top: &FreeTop<N>, state: &mut TopState<N>
 pub fn explicit_step<const N: usize>(top: &FreeTop<N>, state: &mut TopState<N>, dt: f64) {
     let momentum = state.momentum_in_body + top.momentum_rate(&state.momentum_in_body) * dt;
     advance(top, state, momentum, dt);
+}
+
+/// Derivative of Euler's right-hand side at `momentum` in a direction.
+fn momentum_rate_derivative<const N: usize>(
+    top: &FreeTop<N>,
+    momentum: &Bivector<N>,
+    direction: &Bivector<N>,
+) -> Bivector<N> {
+    let spin = top.spin_from_momentum(momentum).to_matrix();
+    let change = top.spin_from_momentum(direction).to_matrix();
+    let moments = top.principal_moments();
+    Bivector::from_fn(|i, j| {
+        (moments[i] - moments[j]) * (spin.row(i).dot(change.row(j)) + change.row(i).dot(spin.row(j)))
+    })
 }
 
 fn advance<const N: usize>(top: &FreeTop<N>, state: &mut TopState<N>, momentum: Bivector<N>, dt: f64) {

@@ -17,7 +17,7 @@ pub enum Method {
     Splitting4,
     /// Plane splitting of sixth order, thirteen stages.
     Splitting6,
-    /// Implicit midpoint on the momentum with a Cayley turn: keeps every quadratic integral.
+    /// Implicit midpoint rule on rotations: second order, keeps every integral, of any degree.
     Midpoint,
     /// The implicit gyroscopic step of engines, one Newton iteration; first order, for comparison.
     Gyroscopic,

@@ -8,7 +8,7 @@
 //! | [`components`] | Euler's equation plane by plane: which planes drive which |
 //! | [`method`] | [`Method`]: the integrators by name |
 //! | [`plane_splitting`], [`splitting`] | exact turns in coordinate planes: the step of the world, and orders 2, 4, 6 |
-//! | [`midpoint`] | the implicit midpoint rule |
+//! | [`midpoint`] | the implicit midpoint rule on rotations |
 //! | [`engine_steps`] | what engines usually do, for comparison |
 //! | [`exact`], [`three_axes`], [`elliptic`] | closed forms |
 //! | [`invariants`] | what is conserved, and the drift of a run |
