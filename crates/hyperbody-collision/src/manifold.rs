@@ -7,17 +7,19 @@
 use hyperbody_math::Vector;
 
 /// Capacity of a manifold in any dimension.
-pub const MAX_POINTS: usize = 12;
+pub const MAX_POINTS: usize = 16;
 
-/// Largest number of points of a manifold in `n` dimensions: both ends in the plane, four corners in space, eight in
-/// 4D (the corners of a cubic facet), and twice the dimension above.
+/// Largest number of points of a manifold in `n` dimensions: both ends in the plane, four corners in space, the eight
+/// corners of a cubic facet in 4D, and half of the corners of a facet of a box above, eight in 5D and sixteen in 6D.
+///
+/// Half, because every second corner of a cube spans it as evenly as all of them do (they form a demihypercube), where
+/// ten of sixteen would let a box sink deeper on one side: a stack in 5D leans on ten and stands on eight.
 #[must_use]
 pub const fn max_points(n: usize) -> usize {
     match n {
         0..=2 => 2,
         3 => 4,
-        4 => 8,
-        5 => 10,
+        4 | 5 => 8,
         _ => MAX_POINTS,
     }
 }
