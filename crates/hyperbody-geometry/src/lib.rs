@@ -24,6 +24,7 @@ mod incidence;
 pub mod mass;
 pub mod off;
 pub mod polytope;
+mod quadrature;
 pub mod regular;
 pub mod shape;
 pub mod tolerances;

@@ -4,7 +4,9 @@
 //! polytopes are sums over faces and their normal cones.
 
 mod boundary;
+mod orthant;
 mod rounded_box;
+mod rounded_polytope;
 
 use hyperbody_math::eigen::symmetric_eigen;
 use hyperbody_math::{Matrix, Pose, Rotation, Vector};
@@ -90,7 +92,8 @@ impl<const N: usize> Shape<N> {
     /// up; where they overlap, both count.
     ///
     /// # Errors
-    /// `BadNumber` if the density is not in [`MIN_DENSITY`]..=[`MAX_DENSITY`]; `Unsupported` for a half-space, which is infinite.
+    /// `BadNumber` if the density is not in [`MIN_DENSITY`]..=[`MAX_DENSITY`]; `BadCount` for a rounded polytope of so
+    /// many facets that its solid angles would take minutes; `Unsupported` for a half-space, which is infinite.
     pub fn mass_properties(&self, density: f64) -> Result<MassProperties<N>> {
         if !(MIN_DENSITY..=MAX_DENSITY).contains(&density) {
             let message = format!(
@@ -112,6 +115,7 @@ impl<const N: usize> Shape<N> {
             Self::Polytope(polytope) => Ok(MassProperties::of_polytope(polytope)),
             Self::Rounded { core, radius } => match core.as_ref() {
                 Self::Box { half_extents } => Ok(rounded_box::properties(*half_extents, *radius)),
+                Self::Polytope(polytope) => rounded_polytope::properties(polytope, *radius),
                 _ => Err(GeometryError::new(Unsupported, "only boxes and polytopes can be rounded")),
             },
             Self::Compound { parts } => {

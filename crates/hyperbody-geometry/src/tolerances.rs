@@ -46,3 +46,7 @@ pub(crate) const MIN_CLIMBING_VERTICES: usize = 48;
 
 /// Most vertices of a regular polygon: with more, its corners would be too close to straight for the hull.
 pub const MAX_POLYGON: usize = 10_000;
+
+/// Most work for the solid angles of a rounded polytope, in tens of microseconds: about ten seconds. All regular
+/// polytopes stay far below; hulls of many random points in five and six dimensions do not.
+pub(crate) const MAX_CONE_WORK: u64 = 1_000_000;

@@ -80,46 +80,6 @@ fn solids_have_the_moments_of_the_table() {
     }
 }
 
-/// Volume, J along the axis and J across it (per unit mass) of a capsule, by slices orthogonal to its axis.
-fn sliced_capsule<const N: usize>(half_length: f64, radius: f64) -> (f64, f64, f64) {
-    let slice = volume::unit_ball(N - 1);
-    let steps = 4000_u32;
-    let (mut content, mut along, mut across) = (0.0, 0.0, 0.0);
-    let mut add = |x: f64, slice_radius: f64, width: f64| {
-        let part = 2.0 * width * slice * slice_radius.powi(N as i32 - 1);
-        content += part;
-        along += part * x * x;
-        across += part * slice_radius * slice_radius / (N as f64 + 1.0);
-    };
-    for k in 0..steps {
-        let t = (f64::from(k) + 0.5) / f64::from(steps);
-        add(half_length * t, radius, half_length / f64::from(steps));
-        // x = h + r sin θ. The midpoint rule in θ converges fast: the integrand is even about both ends.
-        let (sin, cos) = (t * std::f64::consts::FRAC_PI_2).sin_cos();
-        add(half_length + radius * sin, radius * cos, radius * cos * std::f64::consts::FRAC_PI_2 / f64::from(steps));
-    }
-    (content, along / content, across / content)
-}
-
-fn capsules<const N: usize>() {
-    let (half_length, radius) = (0.8, 0.5);
-    let (content, along, across) = sliced_capsule::<N>(half_length, radius);
-    for axis in 0..N {
-        let capsule = Shape::<N>::capsule(half_length, radius, axis).unwrap().mass_properties(1.0).unwrap();
-        let moments = Vector::from_fn(|i| if i == axis { along } else { across });
-        assert_close(&capsule, &diagonal(content, moments), 1e-6);
-    }
-}
-
-#[test]
-fn capsules_are_the_sum_of_their_slices() {
-    capsules::<2>();
-    capsules::<3>();
-    capsules::<4>();
-    capsules::<5>();
-    capsules::<6>();
-}
-
 /// The same moments by pyramids from one vertex instead of the middle, and by a rule of points (corners and centre of
 /// each simplex, exact for quadratics) instead of a formula.
 fn subdivided<const N: usize>(polytope: &Polytope<N>) -> MassProperties<N> {
