@@ -1,7 +1,8 @@
 //! Choosing the few points of a patch that hold it.
 //!
 //! First the deepest, then, one by one, the point farthest from the affine hull of those chosen (which gives a large
-//! simplex that spans the patch), then the point farthest from all chosen. Distances within a few percent of each
+//! simplex that spans the patch), then the point farthest from all chosen, each with the point opposite to it across the
+//! middle of the patch if there is one: a box then stands as deep on one side as on the other. Distances within a few percent of each
 //! other go to the point that was chosen in the previous step, then to the smaller id, so that the choice is stable.
 
 use hyperbody_math::Vector;
@@ -19,6 +20,9 @@ pub(crate) struct Candidate<const N: usize> {
 /// Relative difference of squared distances that rounding makes.
 const EQUAL_DISTANCE: f64 = 1e-9;
 
+/// A point counts as opposite within this share, squared, of the distance from the middle.
+const OPPOSITE_SQ: f64 = 0.04;
+
 /// Working memory of the reduction.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reducer<const N: usize> {
@@ -27,6 +31,10 @@ pub(crate) struct Reducer<const N: usize> {
     residuals: Vec<Vector<N>>,
     /// Squared distance of each candidate to the nearest point chosen so far.
     nearest_sq: Vec<f64>,
+    /// Mean of all candidates.
+    middle: Vector<N>,
+    /// Places of chosen points whose opposite has been looked for.
+    paired: u32,
 }
 
 impl<const N: usize> Reducer<N> {
@@ -43,6 +51,12 @@ impl<const N: usize> Reducer<N> {
         // Each turn chooses one point.
         while chosen < limit.min(self.candidates.len()) {
             let spanning = chosen < N;
+            if !spanning && let Some(index) = self.opposite_of_unpaired(chosen) {
+                self.choose(index, chosen);
+                self.paired |= 1 << chosen;
+                chosen += 1;
+                continue;
+            }
             let mut best = None;
             for index in chosen..self.candidates.len() {
                 let nearest_sq = self.nearest_sq[index];
@@ -63,6 +77,26 @@ impl<const N: usize> Reducer<N> {
             chosen += 1;
         }
         self.candidates.truncate(chosen);
+    }
+
+    /// The candidate opposite to the first chosen point that has no partner yet.
+    fn opposite_of_unpaired(&mut self, chosen: usize) -> Option<usize> {
+        for place in 0..chosen {
+            if self.paired & (1 << place) != 0 {
+                continue;
+            }
+            self.paired |= 1 << place;
+            let point = self.candidates[place].position;
+            let opposite = self.middle * 2.0 - point;
+            let near_sq = OPPOSITE_SQ * (point - self.middle).norm_sq();
+            let is_near = |candidate: &Candidate<N>| (candidate.position - opposite).norm_sq() <= near_sq;
+            if let Some(partner) = self.candidates[..chosen].iter().position(is_near) {
+                self.paired |= 1 << partner;
+            } else if let Some(partner) = self.candidates[chosen..].iter().position(is_near) {
+                return Some(chosen + partner);
+            }
+        }
+        None
     }
 
     fn spread_remains(&self, chosen: usize, tiny_sq: f64) -> bool {
@@ -102,6 +136,8 @@ impl<const N: usize> Reducer<N> {
             middle += candidate.position;
         }
         middle *= 1.0 / self.candidates.len() as f64;
+        self.middle = middle;
+        self.paired = 0;
         let mut best = None;
         for (index, candidate) in self.candidates.iter().enumerate() {
             if candidate.separation <= least + limits::EQUAL_DEPTH * size {

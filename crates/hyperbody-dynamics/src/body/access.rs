@@ -143,6 +143,8 @@ impl<const N: usize> BodyMut<'_, N> {
         finite(world_from_body.translation, "position")?;
         if self.body.quarantined {
             self.body.quarantined = false;
+            self.body.force = Vector::ZERO;
+            self.body.torque = Bivector::ZERO;
             self.body.velocity = Vector::ZERO;
             self.body.angular_velocity = Bivector::ZERO;
             self.body.angular_momentum = Bivector::ZERO;
