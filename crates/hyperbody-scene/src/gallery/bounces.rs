@@ -24,8 +24,8 @@ pub(super) fn restitution_2d() -> Scene {
 pub(super) fn clouds_5d() -> Scene {
     let mut scene = scene(
         5,
-        "Two clouds of five-dimensional cubes fly into each other without gravity and scatter; momentum and angular momentum \
-         stay what they were.",
+        "Two clouds of five-dimensional cubes fly into each other without gravity and scatter; their momentum stays \
+         what it was.",
     );
     scene.gravity = vec![0.0; 5];
     scene.materials.push(material("default", 0.2, 0.8));

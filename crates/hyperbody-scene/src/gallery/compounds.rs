@@ -6,7 +6,7 @@ use crate::model::{Part, Scene, ShapeSpec};
 pub(super) fn ells_4d() -> Scene {
     let mut scene =
         scene(4, "24 hooks, each of three bars along three of the four axes, fall into a pit and catch in each other.");
-    let heap = Heap { dimension: 4, across: 2, layers: 3, spacing: 2.1, largest_turn: 45.0, seed: 2020 };
+    let heap = Heap { dimension: 4, across: 2, layers: 3, spacing: 2.1, reach: 1.05, largest_turn: 45.0, seed: 2020 };
     scene.bodies = heap.bodies(|_| hook());
     scene
 }

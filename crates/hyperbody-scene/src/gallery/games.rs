@@ -16,8 +16,8 @@ pub(super) fn dominoes_3d() -> Scene {
         let domino = Body::new(ShapeSpec::cuboid([0.06, 0.5, 0.25])).named(format!("domino {index}"));
         scene.bodies.push(domino.at(position).turned("xz", rounded(turn_deg)));
     }
-    let ball = Body::new(ShapeSpec::ball(0.2)).named("ball").at([-1.0, 0.9, 0.0]).weighing(0.1);
-    scene.bodies.push(ball.moving([4.0, 1.0, 0.0]));
+    let ball = Body::new(ShapeSpec::ball(0.2)).named("ball").at([-1.0, 0.8, 0.0]).weighing(0.5);
+    scene.bodies.push(ball.moving([2.0, 1.5, 0.0]));
     scene
 }
 

@@ -8,12 +8,13 @@ pub(super) fn cradle_2d() -> Scene {
         scene(2, "Newton's cradle: one swinging ball strikes a row of four, and the far one flies off in its place.");
     scene.materials.push(material("steel", 0.0, 1.0));
     scene.sleeping = false;
+    scene.dt = 1.0 / 240.0;
     let (radius, length) = (0.5, 3.0);
     let beam = ShapeSpec::cuboid([3.0, 0.1]);
     scene.bodies.push(Body::new(beam).named("beam").fixed().at([0.0, 4.5]));
     for index in 0..5 {
-        // A hair's breadth apart, so that each pair collides by itself.
-        let pivot = (f64::from(index) - 2.0) * (2.0 * radius + 0.002);
+        // So far apart, and at steps so short, that each pair collides by itself.
+        let pivot = (f64::from(index) - 2.0) * (2.0 * radius + 0.03);
         let swing_deg: f64 = if index == 0 { -50.0 } else { 0.0 };
         let (sin, cos) = hyperbody::math::scalar::sin_cos(swing_deg.to_radians());
         let position = [pivot + length * sin, 4.5 - length * cos];

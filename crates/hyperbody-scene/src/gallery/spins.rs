@@ -23,13 +23,13 @@ pub(super) fn tumble_4d() -> Scene {
     let mut scene = scene(
         4,
         "A box spins in two planes at once, yw and xz, and tumbles without end: no spin in this pair of planes is stable, \
-         whatever its two rates. The box beside it spins in zw and xy, and stays as it is.",
+         whatever its two rates. The box beside it spins in xy and zw, and only wobbles.",
     );
     scene.gravity = vec![0.0; 4];
     let half_extents = [0.3, 0.5, 0.7, 1.0];
     let unstable = Body::new(ShapeSpec::cuboid(half_extents)).named("tumbling").at([-2.0, 0.0, 0.0, 0.0]);
-    scene.bodies.push(unstable.spinning("xz", 2.0).spinning("yw", 4.0).spinning("xy", 0.01));
+    scene.bodies.push(unstable.spinning("xz", 8.0).spinning("yw", 2.0).spinning("xy", 0.02));
     let stable = Body::new(ShapeSpec::cuboid(half_extents)).named("steady").at([2.0, 0.0, 0.0, 0.0]);
-    scene.bodies.push(stable.spinning("xy", 2.0).spinning("xz", 0.01).spinning("zw", 4.0));
+    scene.bodies.push(stable.spinning("xy", 8.0).spinning("xz", 0.02).spinning("zw", 2.0));
     scene
 }

@@ -46,6 +46,12 @@ pub(super) fn pit(dimension: usize, half_width: f64) -> Vec<Body> {
     bodies
 }
 
+/// How far the layers of a heap are moved to either side, in spacings.
+const SHIFT: f64 = 0.25;
+
+/// How far each body of a heap starts off its place in the layer, m.
+const SCATTER: f64 = 0.05;
+
 /// Where the bodies of a heap start.
 pub(super) struct Heap {
     pub(super) dimension: usize,
@@ -54,6 +60,8 @@ pub(super) struct Heap {
     pub(super) layers: usize,
     /// Distance between neighbours, m.
     pub(super) spacing: f64,
+    /// How far a body reaches from its centre, m: the walls stand where the outermost one just fits.
+    pub(super) reach: f64,
     /// Largest turn in every plane, degrees.
     pub(super) largest_turn: f64,
     pub(super) seed: u64,
@@ -63,18 +71,19 @@ impl Heap {
     /// A pit with layers of bodies above it, each shifted against the one below and turned a little, so that they tumble.
     pub(super) fn bodies(&self, shape_of: impl Fn(usize) -> ShapeSpec) -> Vec<Body> {
         let mut random = Random::new(self.seed);
-        let mut bodies = pit(self.dimension, self.across as f64 * self.spacing / 2.0 + 0.9);
+        let outermost = (self.across - 1) as f64 / 2.0 * self.spacing + SHIFT * self.spacing + SCATTER;
+        let mut bodies = pit(self.dimension, ((outermost + self.reach) * 100.0).ceil() / 100.0);
         let per_layer = (1..self.dimension).fold(1, |count, _| count * self.across);
         for index in 0..per_layer * self.layers {
             let layer = index / per_layer;
             let mut cell = index % per_layer;
-            let shift = if layer % 2 == 0 { -0.25 } else { 0.25 } * self.spacing;
+            let shift = if layer % 2 == 0 { -SHIFT } else { SHIFT } * self.spacing;
             let mut position = vec![1.3 + layer as f64 * self.spacing; self.dimension];
             for axis in (0..self.dimension).filter(|&axis| axis != 1) {
                 let column = (cell % self.across) as f64 - (self.across - 1) as f64 / 2.0;
                 cell /= self.across;
                 // Rounded, so that written files stay short.
-                let coordinate = column * self.spacing + shift + random.around_zero(0.05);
+                let coordinate = column * self.spacing + shift + random.around_zero(SCATTER);
                 position[axis] = (coordinate * 1e4).round() / 1e4;
             }
             let mut body = Body::new(shape_of(index)).at(position);
