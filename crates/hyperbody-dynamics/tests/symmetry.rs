@@ -51,10 +51,10 @@ fn embedded<const N: usize>() {
         }
     }
     println!("{N}D departs from 3D by {most:?} m");
-    // Free flight and the pendulum are the same to rounding, sliding to half a millimetre. An edge that lands has twice the
-    // corners with each dimension, which the sweeps of an impact press unequally, so that the box comes down turned a
-    // little into the other directions: half a centimetre to three.
-    let allowed = [1e-3, 1e-3, 4e-2, 1e-9, 1e-9];
+    // Free flight and the pendulum are the same to rounding. A face or edge has more corners with each dimension, which the
+    // sweeps press unequally when it lands or is pushed, so that the box turns a little into the other directions: sliding
+    // departs by 0.5 mm in 4D and 5D and 4 mm in 6D, an edge that lands by one to three centimetres (see ARCHITECTURE.md).
+    let allowed = [5e-3, 5e-3, 4e-2, 1e-9, 1e-9];
     let same = most.iter().zip(allowed).all(|(&apart, limit)| apart <= limit);
     assert!(same, "{N}D departs from 3D by {most:?} m within two seconds, allowed {allowed:?}");
 }
