@@ -47,19 +47,26 @@ const STAGES: [Stage; 7] = [
 pub(crate) fn run(arguments: &TestArguments) -> Outcome {
     let stages: Vec<&Stage> = STAGES.iter().filter(|stage| stage.quick || !arguments.quick).collect();
     let start = Instant::now();
+    let mut skipped = Vec::new();
     for (position, stage) in stages.iter().enumerate() {
         println!("==> [{}/{}] {}", position + 1, stages.len(), stage.name);
         if let Some(component) = stage.component
             && !component_is_there(component)?
         {
             println!("    skipped: this toolchain has no {component}; `rustup component add {component}` installs it");
+            skipped.push(stage.name);
             continue;
         }
         let stage_start = Instant::now();
         (stage.action)().map_err(|message| format!("stage \"{}\" failed: {message}", stage.name))?;
         println!("    ok, {:.1} s", stage_start.elapsed().as_secs_f64());
     }
-    println!("==> all {} stages passed, {:.0} s", stages.len(), start.elapsed().as_secs_f64());
+    let seconds = start.elapsed().as_secs_f64();
+    if skipped.is_empty() {
+        println!("==> all {} stages passed, {seconds:.0} s", stages.len());
+    } else {
+        println!("==> {} stages passed, {seconds:.0} s; skipped: {}", stages.len() - skipped.len(), skipped.join(", "));
+    }
     Ok(())
 }
 

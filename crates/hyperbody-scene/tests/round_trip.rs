@@ -58,7 +58,7 @@ fn everything() -> Scene {
     turned.rotation = RotationSpec::Rotor(rotor);
     scene.bodies.push(turned);
     let edge = PolytopeSpec::Regular { name: "{3,3,4}".to_owned(), size: Size::Edge(1.0) };
-    scene.bodies.push(Body::new(ShapeSpec::Polytope(edge).rounded(0.1)).fixed());
+    scene.bodies.push(Body::new(ShapeSpec::Polytope(edge).rounded(0.1)));
     let corners: Vec<Vec<f64>> =
         (0..5).map(|k| (0..4).map(|axis| f64::from(u8::from(axis + 1 == k))).collect()).collect();
     scene.bodies.push(Body::new(ShapeSpec::Polytope(PolytopeSpec::Vertices(corners))));

@@ -52,11 +52,11 @@ pub(super) fn capsules_4d() -> Scene {
 pub(super) fn rounded_4d() -> Scene {
     let mut scene = scene(
         4,
-        "Tesseracts with rounded edges, like worn dice, roll over their corners where sharp ones would catch.",
+        "Tesseracts and 16-cells with rounded edges, like worn dice, roll over their corners where sharp ones would catch.",
     );
     scene.bodies = heap(4, 3, 2, 1.7, 1.0, 60.0).bodies(|index| {
-        let radius = [0.05, 0.15, 0.25][index % 3];
-        ShapeSpec::cube(4, 0.5 - radius).rounded(radius)
+        let core = if index % 2 == 0 { ShapeSpec::cube(4, 0.35) } else { ShapeSpec::regular("16-cell", 0.7) };
+        core.rounded([0.05, 0.1, 0.15][index % 3])
     });
     scene
 }
