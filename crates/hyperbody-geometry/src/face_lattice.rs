@@ -72,6 +72,24 @@ impl FaceLattice {
         self.ranks.iter().map(Vec::len).collect()
     }
 
+    /// Whether the faces close up as those of a polytope do: the diamond property on every rank, and Euler's relation
+    /// Σ (−1)^k f_k = 1 − (−1)^N.
+    pub(crate) fn is_consistent(&self) -> bool {
+        let top = self.ranks.len();
+        let edges = self.faces(1).iter().all(|edge| edge.boundary.len() == 2);
+        let diamonds = (2..top).all(|rank| {
+            self.faces(rank).iter().all(|face| {
+                let sides = face.boundary.iter().map(|&side| &self.ranks[rank - 1][side as usize].boundary);
+                let mut ends: Vec<u32> = sides.flatten().copied().collect();
+                ends.sort_unstable();
+                face.boundary.len() > rank && ends.chunk_by(|a, b| a == b).all(|same| same.len() == 2)
+            })
+        });
+        let ridges = self.cofaces(top - 2).iter().all(|facets| facets.len() == 2);
+        let euler: i64 = self.ranks.iter().rev().fold(0, |sum, faces| faces.len() as i64 - sum);
+        edges && diamonds && ridges && euler == if top.is_multiple_of(2) { 0 } else { 2 }
+    }
+
     /// For each face of `rank` the faces one rank higher that it bounds, ascending.
     #[must_use]
     pub fn cofaces(&self, rank: usize) -> Vec<Vec<u32>> {

@@ -5,17 +5,22 @@
 //! hyperplane then become one facet, and points that are not vertices drop out. A hyperplane is thick by a tolerance
 //! relative to the extent of the points: as long as the input leaves a gap between rounding errors and meant features,
 //! every decision is the one that exact arithmetic would make on the ideal input, so cubes, grids and the 120-cell are
-//! as safe as points in general position. Where there is no gap the result is checked (every point inside every facet,
-//! facets flat, each ridge shared by exactly two of them) and the hull is tried again with a thicker tolerance.
+//! as safe as points in general position.
 //!
-//! Tried and dropped: exact predicates, which turn the rounding errors of coplanar vertices into true facets with
-//! meaningless normals. Crates were looked at: `chull` ends with simplices and leaves coplanar ones apart, `qhull`
-//! binds a C library, which wasm and the promise of equal bits on every platform rule out; others stop at three
-//! dimensions.
+//! Where there is no such gap, decisions may contradict each other. So the result is checked: every point inside every
+//! facet, facets flat, each ridge shared by exactly two, all faces closing up. If a check fails, the hyperplanes get
+//! thicker, and at last the points are moved to a fine grid and their hull is computed with exact integers, which always
+//! succeeds but takes noise for features. (From the start it would break the facets of the 120-cell up into slivers whose
+//! normals are rounding errors.)
+//!
+//! Crates were looked at: `chull` ends with simplices and leaves coplanar ones apart, `qhull` binds a C library, which
+//! wasm and the promise of equal bits on every platform rule out; others stop at three dimensions.
 
+mod kernel;
 mod merge;
 mod plane;
 mod quickhull;
+mod wide;
 
 use hyperbody_math::Vector;
 
@@ -24,6 +29,7 @@ use crate::tolerances::{
     FLATNESS, HULL_ATTEMPTS, HULL_TOLERANCE, HULL_TOLERANCE_GROWTH, MAX_HULL_POINTS, MAX_HULL_SIMPLICES,
 };
 use crate::{GeometryError, Polytope, Result};
+use kernel::{Exact, Thick};
 use quickhull::Failure;
 
 /// The hull of `points`, with [`HULL_TOLERANCE`]; see [`Polytope::from_points`]. Returns the indices of the vertices
@@ -51,27 +57,35 @@ pub fn convex_hull_within<const N: usize>(points: &[Vector<N>], tolerance: f64) 
     let flatness = FLATNESS.max(10.0 * tolerance);
     let distinct = first_of_equals(points);
     let scaled: Vec<Vector<N>> = distinct.iter().map(|&i| (points[i as usize] - centre) / extent).collect();
-    let mut thick = tolerance;
-    let mut failure = Failure::Flat(0);
-    for _ in 0..HULL_ATTEMPTS {
-        let attempt = quickhull::simplicial_hull(&scaled, thick, flatness.max(10.0 * thick))
-            .and_then(|simplices| merge::polytope_from_simplices(&scaled, &simplices, thick));
-        match attempt {
-            Ok((polytope, used)) => {
-                let used: Vec<u32> = used.iter().map(|&i| distinct[i as usize]).collect();
-                return Ok((polytope.placed(points, &used, centre, extent), used));
-            }
-            Err(inconsistent @ Failure::Inconsistent(_)) => failure = inconsistent,
-            // A thin body that defeated a finer tolerance is not flat.
-            Err(Failure::Flat(_)) if failure != Failure::Flat(0) => break,
-            Err(other) => {
-                failure = other;
-                break;
-            }
+    match hull_of_scaled(&scaled, tolerance, flatness) {
+        Ok((polytope, used)) => {
+            let used: Vec<u32> = used.iter().map(|&i| distinct[i as usize]).collect();
+            Ok((polytope.placed(points, &used, centre, extent), used))
         }
-        thick *= HULL_TOLERANCE_GROWTH;
+        Err(failure) => Err(explain::<N>(failure, points.len(), extent, flatness)),
     }
-    Err(explain::<N>(failure, points.len(), extent, flatness))
+}
+
+/// The hull of points between −1 and 1: with thick hyperplanes, if need be thicker ones, and at last with exact ones.
+fn hull_of_scaled<const N: usize>(
+    points: &[Vector<N>],
+    tolerance: f64,
+    flatness: f64,
+) -> std::result::Result<(Polytope<N>, Vec<u32>), Failure> {
+    let corners = quickhull::spanning_corners(points, flatness)?;
+    let sum = corners.iter().fold(Vector::ZERO, |sum, &c| sum + points[c as usize]);
+    let mut thick = Thick { points, tolerance, interior: sum / corners.len() as f64 };
+    for _ in 0..HULL_ATTEMPTS {
+        let attempt = quickhull::simplicial_hull(&thick, points, &corners, thick.tolerance)
+            .and_then(|simplices| merge::polytope_from_simplices(&thick, points, &simplices, thick.tolerance));
+        match attempt {
+            Err(Failure::Inconsistent(_)) => thick.tolerance *= HULL_TOLERANCE_GROWTH,
+            other => return other,
+        }
+    }
+    let exact = Exact::new(points, &corners);
+    let simplices = quickhull::simplicial_hull(&exact, points, &corners, tolerance)?;
+    merge::polytope_from_simplices(&exact, points, &simplices, tolerance)
 }
 
 /// Ascending indices of the points without later copies of the same point.
@@ -87,8 +101,8 @@ fn first_of_equals<const N: usize>(points: &[Vector<N>]) -> Vec<u32> {
 
 /// Centre and half-width (largest over the axes) of the points' bounding box.
 fn check_points<const N: usize>(points: &[Vector<N>]) -> Result<(Vector<N>, f64)> {
-    if N < 2 {
-        return Err(GeometryError::new(Unsupported, "hulls need at least two dimensions"));
+    if !(2..=6).contains(&N) {
+        return Err(GeometryError::new(Unsupported, format!("hulls have two to six dimensions, not {N}")));
     }
     if points.len() <= N || points.len() > MAX_HULL_POINTS {
         return Err(GeometryError::new(

@@ -2,6 +2,7 @@
 
 use hyperbody_math::Vector;
 
+use super::kernel::Kernel;
 use super::plane::Hyperplane;
 use super::quickhull::{Failure, Simplex};
 use crate::incidence;
@@ -18,26 +19,32 @@ struct Group<const N: usize> {
 
 /// The polytope bounded by `simplices`, in the frame and scale of `points`; its vertices ascend in their index among
 /// the points, and its facets in their vertex lists. Returns the vertices' indices beside it.
-pub(super) fn polytope_from_simplices<const N: usize>(
+pub(super) fn polytope_from_simplices<const N: usize, K: Kernel<N>>(
+    kernel: &K,
     points: &[Vector<N>],
-    simplices: &[Simplex<N>],
+    simplices: &[Simplex<K::Plane, N>],
     tolerance: f64,
 ) -> Result<(Polytope<N>, Vec<u32>), Failure> {
-    let group_of = groups_of_coplanar(points, simplices, tolerance);
-    let mut groups = collect_groups(points, simplices, &group_of);
+    let group_of = groups_of_coplanar(kernel, simplices);
+    let mut groups = collect_groups(kernel, points, simplices, &group_of);
     let used = keep_extreme(&mut groups, points.len())?;
     let vertices: Vec<Vector<N>> = used.iter().map(|&v| points[v as usize]).collect();
     check_distances(points, &vertices, &groups, tolerance)?;
     let facets = in_canonical_order(groups);
     incidence::check_ridges(&facets, vertices.len()).map_err(Failure::Inconsistent)?;
-    Ok((Polytope::from_parts(vertices, facets), used))
+    let simplicial = facets.iter().all(|facet| facet.vertices.len() == N);
+    let polytope = Polytope::from_parts(vertices, facets);
+    // Simplices that close up are a sphere; what merging has made of them needs a look at all faces.
+    if !simplicial && !polytope.face_lattice().is_consistent() {
+        return Err(Failure::Inconsistent("faces that do not close up"));
+    }
+    Ok((polytope, used))
 }
 
 /// The number of the group of each simplex. Neighbours join where a hyperplane of one holds the other's far vertex.
-fn groups_of_coplanar<const N: usize>(points: &[Vector<N>], simplices: &[Simplex<N>], tolerance: f64) -> Vec<u32> {
-    let far_distance = |of: &Simplex<N>, from: &Simplex<N>| {
-        let far = of.vertices.iter().find(|v| !from.vertices.contains(v));
-        far.map_or(0.0, |&v| from.plane.distance(points[v as usize]).abs())
+fn groups_of_coplanar<const N: usize, K: Kernel<N>>(kernel: &K, simplices: &[Simplex<K::Plane, N>]) -> Vec<u32> {
+    let holds_far = |of: &Simplex<K::Plane, N>, from: &Simplex<K::Plane, N>| {
+        of.vertices.iter().find(|v| !from.vertices.contains(v)).is_none_or(|&far| kernel.holds(&from.plane, far))
     };
     let mut group_of = vec![u32::MAX; simplices.len()];
     let mut count = 0;
@@ -50,11 +57,13 @@ fn groups_of_coplanar<const N: usize>(points: &[Vector<N>], simplices: &[Simplex
         stack.push(seed);
         while let Some(current) = stack.pop() {
             let simplex = &simplices[current];
+            let normal = K::hyperplane(&simplex.plane).normal;
             for neighbour in simplex.neighbours.map(|n| n as usize) {
                 let other = &simplices[neighbour];
-                let coplanar = simplex.plane.normal.dot(other.plane.normal) > 0.0
-                    && far_distance(other, simplex).min(far_distance(simplex, other)) <= tolerance;
-                if coplanar && group_of[neighbour] == u32::MAX {
+                let coplanar = group_of[neighbour] == u32::MAX
+                    && normal.dot(K::hyperplane(&other.plane).normal) > 0.0
+                    && (holds_far(other, simplex) || holds_far(simplex, other));
+                if coplanar {
                     group_of[neighbour] = count;
                     stack.push(neighbour);
                 }
@@ -65,59 +74,50 @@ fn groups_of_coplanar<const N: usize>(points: &[Vector<N>], simplices: &[Simplex
     group_of
 }
 
-fn collect_groups<const N: usize>(points: &[Vector<N>], simplices: &[Simplex<N>], group_of: &[u32]) -> Vec<Group<N>> {
+fn collect_groups<const N: usize, K: Kernel<N>>(
+    kernel: &K,
+    points: &[Vector<N>],
+    simplices: &[Simplex<K::Plane, N>],
+    group_of: &[u32],
+) -> Vec<Group<N>> {
     let count = group_of.iter().max().map_or(0, |&last| last as usize + 1);
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); count];
     for (simplex, &group) in group_of.iter().enumerate() {
         members[group as usize].push(simplex);
     }
-    members
-        .iter()
-        .enumerate()
-        .map(|(group, members)| {
-            let mut vertices: Vec<u32> = members.iter().flat_map(|&s| simplices[s].vertices).collect();
-            let mut neighbours: Vec<u32> = members
-                .iter()
-                .flat_map(|&s| simplices[s].neighbours.map(|n| group_of[n as usize]))
-                .filter(|&other| other as usize != group)
-                .collect();
-            for list in [&mut vertices, &mut neighbours] {
-                list.sort_unstable();
-                list.dedup();
-            }
-            Group { plane: group_plane(points, simplices, members, &vertices), vertices, neighbours }
-        })
-        .collect()
-}
-
-/// The hyperplane of a group: that of its widest simplex, then fitted to all its points.
-fn group_plane<const N: usize>(
-    points: &[Vector<N>],
-    simplices: &[Simplex<N>],
-    members: &[usize],
-    vertices: &[u32],
-) -> Hyperplane<N> {
-    if let [only] = members {
-        return simplices[*only].plane;
-    }
-    let mut widest = (members[0], f64::NEG_INFINITY);
-    for &member in members {
-        let width = smallest_height(points, &simplices[member]);
-        if width > widest.1 {
-            widest = (member, width);
+    let collect = |(group, members): (usize, &Vec<usize>)| {
+        let mut vertices: Vec<u32> = members.iter().flat_map(|&s| simplices[s].vertices).collect();
+        let mut neighbours: Vec<u32> = members
+            .iter()
+            .flat_map(|&s| simplices[s].neighbours.map(|n| group_of[n as usize]))
+            .filter(|&other| other as usize != group)
+            .collect();
+        for list in [&mut vertices, &mut neighbours] {
+            list.sort_unstable();
+            list.dedup();
         }
-    }
-    let positions: Vec<Vector<N>> = vertices.iter().map(|&v| points[v as usize]).collect();
-    simplices[widest.0].plane.fitted(&positions)
+        let planes: Vec<&K::Plane> = members.iter().map(|&s| &simplices[s].plane).collect();
+        let mut widest = (0, f64::NEG_INFINITY);
+        if members.len() > 1 {
+            for (position, &member) in members.iter().enumerate() {
+                let width = smallest_height(points, &simplices[member].vertices);
+                if width > widest.1 {
+                    widest = (position, width);
+                }
+            }
+        }
+        Group { plane: kernel.facet_plane(&planes, widest.0, &vertices), vertices, neighbours }
+    };
+    members.iter().enumerate().map(collect).collect()
 }
 
 /// The smallest of the distances of the simplex's points from the flat through those before them: what limits the
 /// accuracy of its normal.
-fn smallest_height<const N: usize>(points: &[Vector<N>], simplex: &Simplex<N>) -> f64 {
-    let base = points[simplex.vertices[0] as usize];
+fn smallest_height<const N: usize>(points: &[Vector<N>], vertices: &[u32; N]) -> f64 {
+    let base = points[vertices[0] as usize];
     let mut basis: Vec<Vector<N>> = Vec::with_capacity(N);
     let mut smallest = f64::INFINITY;
-    for &vertex in &simplex.vertices[1..] {
+    for &vertex in &vertices[1..] {
         let mut residual = points[vertex as usize] - base;
         for &direction in &basis {
             residual -= direction * direction.dot(residual);

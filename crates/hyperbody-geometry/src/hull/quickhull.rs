@@ -1,10 +1,13 @@
 //! The simplicial hull: quickhull over facets that are simplices, with the points outside each facet kept in its list.
+//!
+//! A point that is in the hyperplane of a facet does not see it. So a new facet, over a ridge between one that the new
+//! point sees and one that it does not, is never degenerate as long as these answers are consistent.
 
 use std::collections::VecDeque;
 
 use hyperbody_math::Vector;
 
-use super::plane::Hyperplane;
+use super::kernel::Kernel;
 use crate::tolerances::MAX_HULL_SIMPLICES;
 
 /// Why an attempt broke off; another tolerance may succeed.
@@ -20,30 +23,31 @@ pub(super) enum Failure {
 
 /// One facet of the simplicial hull.
 #[derive(Clone, Debug)]
-pub(super) struct Simplex<const N: usize> {
+pub(super) struct Simplex<P, const N: usize> {
     /// Indices of its points.
     pub(super) vertices: [u32; N],
     /// The simplex across the ridge that leaves out vertex i.
     pub(super) neighbours: [u32; N],
     /// Outward.
-    pub(super) plane: Hyperplane<N>,
-    /// Points farther out than the tolerance, each in the list of one simplex only.
+    pub(super) plane: P,
+    /// Points that see this simplex, each in the list of one simplex only.
     outside: Vec<u32>,
     removed: bool,
     /// The last point whose search for visible facets came here.
     visited_for: u32,
 }
 
-/// The hull of `points` as simplices that close up; a point up to `tolerance` outside may be left out.
+/// The hull of `points` as simplices that close up. Hyperplanes closer together than `tie` count as equally far when
+/// the farthest point is sought.
 ///
 /// Every point is added or dropped once, so the work is bounded by the number of points times that of facets.
-pub(super) fn simplicial_hull<const N: usize>(
+pub(super) fn simplicial_hull<const N: usize, K: Kernel<N>>(
+    kernel: &K,
     points: &[Vector<N>],
-    tolerance: f64,
-    flatness: f64,
-) -> Result<Vec<Simplex<N>>, Failure> {
-    let corners = spanning_corners(points, flatness)?;
-    let mut hull = Builder::new(points, &corners, tolerance)?;
+    corners: &[u32],
+    tie: f64,
+) -> Result<Vec<Simplex<K::Plane, N>>, Failure> {
+    let mut hull = Builder::new(kernel, points, corners, tie)?;
     while let Some(simplex) = hull.pending.pop_front() {
         if let Some(point) = hull.take_farthest(simplex) {
             hull.add(point, simplex)?;
@@ -58,7 +62,7 @@ pub(super) fn simplicial_hull<const N: usize>(
 }
 
 /// `N + 1` points that span the space, each the farthest from the flat through those before it.
-fn spanning_corners<const N: usize>(points: &[Vector<N>], flatness: f64) -> Result<Vec<u32>, Failure> {
+pub(super) fn spanning_corners<const N: usize>(points: &[Vector<N>], flatness: f64) -> Result<Vec<u32>, Failure> {
     let mut farthest = 0;
     for (index, point) in points.iter().enumerate() {
         if point.norm_sq() > points[farthest].norm_sq() {
@@ -89,11 +93,11 @@ fn spanning_corners<const N: usize>(points: &[Vector<N>], flatness: f64) -> Resu
     Ok(corners)
 }
 
-struct Builder<'a, const N: usize> {
+struct Builder<'a, K: Kernel<N>, const N: usize> {
+    kernel: &'a K,
     points: &'a [Vector<N>],
-    tolerance: f64,
-    interior: Vector<N>,
-    simplices: Vec<Simplex<N>>,
+    tie: f64,
+    simplices: Vec<Simplex<K::Plane, N>>,
     removed_count: usize,
     /// Simplices that may have points outside.
     pending: VecDeque<u32>,
@@ -103,13 +107,12 @@ struct Builder<'a, const N: usize> {
     ridges: Vec<([u32; N], u32, usize)>,
 }
 
-impl<'a, const N: usize> Builder<'a, N> {
-    fn new(points: &'a [Vector<N>], corners: &[u32], tolerance: f64) -> Result<Self, Failure> {
-        let sum = corners.iter().fold(Vector::ZERO, |sum, &c| sum + points[c as usize]);
+impl<'a, K: Kernel<N>, const N: usize> Builder<'a, K, N> {
+    fn new(kernel: &'a K, points: &'a [Vector<N>], corners: &[u32], tie: f64) -> Result<Self, Failure> {
         let mut builder = Self {
+            kernel,
             points,
-            tolerance,
-            interior: sum / corners.len() as f64,
+            tie,
             simplices: Vec::new(),
             removed_count: 0,
             pending: VecDeque::new(),
@@ -133,13 +136,7 @@ impl<'a, const N: usize> Builder<'a, N> {
         if self.simplices.len() - self.removed_count >= MAX_HULL_SIMPLICES {
             return Err(Failure::TooManyFacets);
         }
-        let plane = Hyperplane::through(&vertices.map(|v| self.points[v as usize]))
-            .ok_or(Failure::Inconsistent("a facet without a hyperplane"))?;
-        let height = plane.distance(self.interior);
-        if height.abs() <= self.tolerance {
-            return Err(Failure::Inconsistent("a facet through the interior"));
-        }
-        let plane = if height > 0.0 { plane.flipped() } else { plane };
+        let plane = self.kernel.plane(vertices)?;
         self.simplices.push(Simplex {
             vertices,
             neighbours: [u32::MAX; N],
@@ -154,9 +151,8 @@ impl<'a, const N: usize> Builder<'a, N> {
     /// Puts each point into the list of the first simplex from `first` on that it is outside of, if there is one.
     fn distribute(&mut self, indices: &[u32], first: usize) {
         for &index in indices {
-            let point = self.points[index as usize];
-            let tolerance = self.tolerance;
-            if let Some(simplex) = self.simplices[first..].iter_mut().find(|s| s.plane.distance(point) > tolerance) {
+            let kernel = self.kernel;
+            if let Some(simplex) = self.simplices[first..].iter_mut().find(|s| kernel.sees(&s.plane, index)) {
                 simplex.outside.push(index);
             }
         }
@@ -175,13 +171,13 @@ impl<'a, const N: usize> Builder<'a, N> {
         if simplex.removed {
             return None;
         }
+        let plane = K::hyperplane(&simplex.plane);
         let mut best: Option<(usize, f64, f64)> = None;
         for (position, &index) in simplex.outside.iter().enumerate() {
             let point = self.points[index as usize];
-            let (distance, reach) = (simplex.plane.distance(point), point.norm_sq());
+            let (distance, reach) = (plane.distance(point), point.norm_sq());
             let better = best.is_none_or(|(_, farthest, farthest_reach)| {
-                distance > farthest + self.tolerance
-                    || (distance >= farthest - self.tolerance && reach > farthest_reach)
+                distance > farthest + self.tie || (distance >= farthest - self.tie && reach > farthest_reach)
             });
             if better {
                 best = Some((position, distance, reach));
@@ -225,7 +221,6 @@ impl<'a, const N: usize> Builder<'a, N> {
 
     /// Fills `visible` with the simplices that see the point, and `horizon` with their ridges to those that do not.
     fn find_horizon(&mut self, point: u32, first: u32) {
-        let position = self.points[point as usize];
         self.visible.clear();
         self.horizon.clear();
         self.visible.push(first);
@@ -237,7 +232,7 @@ impl<'a, const N: usize> Builder<'a, N> {
             for slot in 0..N {
                 let neighbour = self.simplices[current as usize].neighbours[slot];
                 let simplex = &mut self.simplices[neighbour as usize];
-                let sees = simplex.plane.distance(position) > self.tolerance;
+                let sees = simplex.visited_for == point || self.kernel.sees(&simplex.plane, point);
                 if !sees {
                     self.horizon.push((current, slot));
                 } else if simplex.visited_for != point {

@@ -25,6 +25,11 @@ impl Random {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        0.5 * (self.symmetric() + 1.0)
+    }
+
     /// Uniform in the cube [−1, 1)^N.
     pub fn vector<const N: usize>(&mut self) -> Vector<N> {
         Vector::from_fn(|_| self.symmetric())
