@@ -147,8 +147,9 @@ pub fn stability<const N: usize>(top: &FreeTop<N>, spin: &Bivector<N>) -> Result
     Ok(result)
 }
 
-/// The growth rate alone, for maps: the largest real part of an eigenvalue in 1/s, and the verdict.
-pub(crate) fn verdict_and_growth<const N: usize>(top: &FreeTop<N>, rotation: &PrincipalRotation<N>) -> (Verdict, f64) {
+/// Verdict and largest real part of an eigenvalue in 1/s of a steady rotation, without the reasons: for maps.
+#[must_use]
+pub fn verdict_and_growth<const N: usize>(top: &FreeTop<N>, rotation: &PrincipalRotation<N>) -> (Verdict, f64) {
     let mut verdict = if rotation.turns().is_empty() { Verdict::Open } else { Verdict::Stable };
     let mut growth_rate = 0.0_f64;
     for block in blocks_of(top, rotation) {
