@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::spin::SpinArguments;
+
 /// Most steps of a run: two days of simulated time at 60 steps a second, whose step times still fit into memory.
 pub(crate) const MAX_STEPS: u32 = 10_000_000;
 
@@ -33,6 +35,8 @@ pub(crate) enum Command {
     Bench(BenchArguments),
     /// Lists the built-in scenes, or writes them as files
     Scenes(ScenesArguments),
+    /// The free-rotation laboratory: how a free body tumbles, and whether its rotation is stable
+    Spin(Box<SpinArguments>),
 }
 
 #[derive(Args, Debug)]

@@ -12,6 +12,7 @@ mod progress;
 mod run;
 mod scenes;
 mod source;
+mod spin;
 mod step_times;
 
 use std::process::ExitCode;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::Bench(arguments) => bench::bench(&arguments),
         Command::Scenes(arguments) => scenes::scenes(&arguments),
+        Command::Spin(arguments) => spin::spin(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -20,8 +20,12 @@ pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
 
 /// Prints a value as one JSON object on one line. Numbers that are not finite become null.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string(value).map_err(|error| Failure::Work(format!("cannot write JSON: {error}")))?;
-    print(text)
+    print(as_json(value)?)
+}
+
+/// A value as one JSON object on one line, as [`print_json`] prints it.
+pub(crate) fn as_json(value: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string(value).map_err(|error| Failure::Work(format!("cannot write JSON: {error}")))
 }
 
 /// Two spaces between columns and a rule under the header; nothing that gets in the way of copying.

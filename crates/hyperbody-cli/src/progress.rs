@@ -26,7 +26,12 @@ impl Progress {
 
     /// One step more is done.
     pub(crate) fn advance(&mut self) {
-        self.bar.inc(1);
+        self.reach(self.bar.position() + 1);
+    }
+
+    /// This many steps are done.
+    pub(crate) fn reach(&mut self, done: u64) {
+        self.bar.set_position(done);
         if !self.shown && self.start.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
             self.shown = true;

@@ -1,0 +1,57 @@
+//! Files that the command writes: checked before the work, written aside and renamed after it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::failure::Failure;
+
+/// A file that can be written, as far as can be told without writing it.
+#[derive(Clone, Debug)]
+pub(super) struct Target {
+    path: PathBuf,
+    extension: String,
+}
+
+impl Target {
+    /// A target for one of the given kinds of files.
+    ///
+    /// # Errors
+    /// If the name ends otherwise, is a folder, or lies in a folder that is not there.
+    pub(super) fn new(option: &str, path: &Path, extensions: &[&str]) -> Result<Self, Failure> {
+        let refuse = |what: String| Err(Failure::Input(format!("{option}: {}: {what}", path.display())));
+        let extension =
+            path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
+        if !extensions.contains(&extension.as_str()) {
+            let wanted: Vec<String> = extensions.iter().map(|extension| format!(".{extension}")).collect();
+            return refuse(format!("the name has to end in {}", wanted.join(" or ")));
+        }
+        if path.is_dir() {
+            return refuse("is a folder; name a file".to_owned());
+        }
+        let folder = folder_of(path);
+        if !folder.is_dir() {
+            return refuse(format!("there is no folder {}; make it first", folder.display()));
+        }
+        Ok(Self { path: path.to_path_buf(), extension })
+    }
+
+    /// What the name ends in, in lower case and without the dot.
+    pub(super) fn extension(&self) -> &str {
+        &self.extension
+    }
+
+    /// Writes the file aside and renames it, so that a reader never sees half of it, and a failure leaves the old one.
+    pub(super) fn write(&self, content: &[u8]) -> Result<(), Failure> {
+        let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let aside = folder_of(&self.path).join(format!(".{name}.{}.part", std::process::id()));
+        fs::write(&aside, content).and_then(|()| fs::rename(&aside, &self.path)).map_err(|error| {
+            // The error of the write is the one to report.
+            let _ = fs::remove_file(&aside);
+            Failure::Work(format!("{}: cannot be written: {error}", self.path.display()))
+        })
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}

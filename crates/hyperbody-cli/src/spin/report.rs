@@ -1,0 +1,170 @@
+//! What a run of a free body found, in the form that is printed as JSON. All series have one entry for each time.
+
+use serde::{Serialize, Serializer};
+
+/// Values by name, in order; serialised as an object.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Named<T>(pub(super) Vec<(String, T)>);
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct Report {
+    pub(super) dimension: usize,
+    /// Second moments by axis.
+    pub(super) moments: Vec<f64>,
+    /// Unit of the moments; energies and momenta are per unit mass where it is m².
+    pub(super) moments_unit: &'static str,
+    /// At the start, in the body frame, rad/s.
+    pub(super) spin: Named<f64>,
+    pub(super) method: &'static str,
+    pub(super) seconds: f64,
+    pub(super) dt: f64,
+    pub(super) steps: u64,
+    /// Most parts into which error control divided a step.
+    pub(super) most_parts: u64,
+    pub(super) stability: StabilityReport,
+    pub(super) equations: Vec<Equation>,
+    pub(super) conserved: Conserved,
+    pub(super) max_relative_drift: DriftReport,
+    pub(super) compared: Vec<Compared>,
+    pub(super) flips: FlipReport,
+    pub(super) period: Period,
+    /// How far the run is from the closed form at its end, where there is one.
+    pub(super) closed_form: Option<ClosedForm>,
+    /// Rows of the matrix that turns body axes into world axes, at the end.
+    pub(super) final_rotation: Vec<Vec<f64>>,
+    /// The same as a rotor: scalar, planes, 4-vectors, ….
+    pub(super) final_rotor: Vec<f64>,
+    /// s.
+    pub(super) times: Vec<f64>,
+    /// In the body frame, rad/s.
+    pub(super) angular_velocity: Named<Vec<f64>>,
+    pub(super) energy: Vec<f64>,
+    /// In the world frame, where it is conserved.
+    pub(super) angular_momentum: Named<Vec<f64>>,
+    pub(super) angular_momentum_in_body: Named<Vec<f64>>,
+    pub(super) angular_momentum_sq: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) pfaffian: Option<Vec<f64>>,
+    /// Manakov's integrals, by axis.
+    pub(super) manakov: Named<Vec<f64>>,
+    pub(super) rotation: Vec<Vec<Vec<f64>>>,
+    /// Largest relative drift up to each time.
+    pub(super) drift: DriftSeries,
+}
+
+#[derive(Serialize)]
+pub(super) struct StabilityReport {
+    /// Null where the linear problem cannot tell, or where the spin is no disturbed steady rotation.
+    pub(super) stable: Option<bool>,
+    /// Of the fastest growing disturbance, 1/s.
+    pub(super) growth_rate: f64,
+    /// From a run that was disturbed by a part in 10⁸, 1/s; null where there is no steady rotation to disturb.
+    pub(super) measured_growth_rate: Option<f64>,
+    pub(super) why: String,
+    /// The steady rotation that was judged, rad/s.
+    pub(super) rotation: Named<f64>,
+    /// Fraction of the spin that lies outside of it.
+    pub(super) disturbance: f64,
+    /// Of the linearised motion, 1/s.
+    pub(super) eigenvalues: Vec<Complex>,
+}
+
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct Complex {
+    pub(super) real: f64,
+    pub(super) imaginary: f64,
+}
+
+#[derive(Serialize)]
+pub(super) struct Equation {
+    pub(super) plane: String,
+    pub(super) moment: f64,
+    pub(super) text: String,
+    /// At the start, rad/s².
+    pub(super) rate: f64,
+    pub(super) drives: Vec<DriveReport>,
+    pub(super) never_driven_by: Vec<String>,
+}
+
+#[derive(Serialize)]
+pub(super) struct DriveReport {
+    pub(super) planes: [String; 2],
+    pub(super) coefficient: f64,
+    /// At the start, rad/s².
+    pub(super) rate: f64,
+}
+
+/// The conserved quantities at the start.
+#[derive(Serialize)]
+pub(super) struct Conserved {
+    pub(super) energy: f64,
+    pub(super) angular_momentum_sq: f64,
+    pub(super) angular_momentum: Named<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) pfaffian: Option<f64>,
+    pub(super) manakov: Named<f64>,
+}
+
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct DriftReport {
+    pub(super) energy: f64,
+    pub(super) angular_momentum_sq: f64,
+    /// Of the momentum in the world frame, as a whole.
+    pub(super) angular_momentum: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) pfaffian: Option<f64>,
+    pub(super) manakov: f64,
+}
+
+#[derive(Clone, Serialize)]
+pub(super) struct DriftSeries {
+    pub(super) energy: Vec<f64>,
+    pub(super) angular_momentum_sq: Vec<f64>,
+    pub(super) angular_momentum: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) pfaffian: Option<Vec<f64>>,
+    pub(super) manakov: Vec<f64>,
+}
+
+/// The same run by another method.
+#[derive(Serialize)]
+pub(super) struct Compared {
+    pub(super) method: &'static str,
+    pub(super) steps: u64,
+    pub(super) max_relative_drift: DriftReport,
+    /// Of the attitude (its matrix) and the relative momentum at the end, from those of the run.
+    pub(super) final_difference: f64,
+    pub(super) times: Vec<f64>,
+    pub(super) drift: DriftSeries,
+}
+
+#[derive(Serialize)]
+pub(super) struct FlipReport {
+    /// The plane whose momentum changes its sign.
+    pub(super) plane: String,
+    /// s.
+    pub(super) times: Vec<f64>,
+    /// Largest deviation of the time between flips from its mean, relative to it.
+    pub(super) irregularity: Option<f64>,
+}
+
+/// Of the momentum in the body frame, s; two flips make a period.
+#[derive(Serialize)]
+pub(super) struct Period {
+    pub(super) measured: Option<f64>,
+    /// From Jacobi's functions; null where they do not apply, or on the separatrix, where it is infinite.
+    pub(super) exact: Option<f64>,
+}
+
+#[derive(Serialize)]
+pub(super) struct ClosedForm {
+    pub(super) kind: &'static str,
+    /// Of the attitude (its matrix) and the relative momentum at the end.
+    pub(super) final_error: f64,
+}

@@ -1,0 +1,128 @@
+//! A run for people.
+
+use super::report::{DriftReport, Report};
+use crate::output::{labelled, number, table};
+
+/// Flip times that are listed.
+const SHOWN_FLIPS: usize = 6;
+
+pub(super) fn as_text(report: &Report) -> String {
+    let spin = report.spin.0.iter().filter(|(_, rate)| *rate != 0.0);
+    let spin: Vec<String> = spin.map(|(plane, rate)| format!("{plane} {}", number(*rate))).collect();
+    let spin = if spin.is_empty() { "nothing".to_owned() } else { spin.join(", ") };
+    let moments: Vec<String> = report.moments.iter().map(|&moment| number(moment)).collect();
+    let mut parts = vec![
+        format!("A free body of {} dimensions, J = ({}) {}", report.dimension, moments.join(", "), report.moments_unit),
+        labelled([("spin at the start", format!("{spin} rad/s")), ("followed for", followed(report))]),
+        stability(report),
+        equations(report),
+        drift(report),
+    ];
+    let regularity = regularity(report);
+    if !regularity.is_empty() {
+        parts.push(labelled(regularity));
+    }
+    parts.join("\n\n")
+}
+
+fn followed(report: &Report) -> String {
+    let divided = if report.most_parts > 1 {
+        format!(", each divided into up to {} parts", report.most_parts)
+    } else {
+        String::new()
+    };
+    let (seconds, dt) = (number(report.seconds), number(report.dt));
+    format!("{seconds} s by {} in {} steps of {dt} s{divided}", report.method, report.steps)
+}
+
+fn stability(report: &Report) -> String {
+    let found = &report.stability;
+    let verdict = match found.stable {
+        Some(true) => "stable".to_owned(),
+        Some(false) => format!(
+            "unstable: disturbances grow at {} /s, e-fold in {} s",
+            number(found.growth_rate),
+            number(1.0 / found.growth_rate)
+        ),
+        None => "open".to_owned(),
+    };
+    let mut lines = vec![("steady rotation", verdict), ("why", found.why.clone())];
+    if let Some(rate) = found.measured_growth_rate {
+        lines.push(("measured growth", format!("{} /s, in a run disturbed by 1e-8", number(rate))));
+    }
+    if found.stable.is_some() && found.disturbance == 0.0 {
+        lines.push(("", "the spin is exactly steady; --disturb 0.001 shows what a push does".to_owned()));
+    }
+    labelled(lines)
+}
+
+fn equations(report: &Report) -> String {
+    let mut table = table(&["plane", "moment", "driven by", "dω/dt now", "never by"], 1);
+    for index in [2, 4] {
+        if let Some(column) = table.column_mut(index) {
+            column.set_cell_alignment(comfy_table::CellAlignment::Left);
+        }
+    }
+    for equation in &report.equations {
+        let drives: Vec<String> = equation
+            .drives
+            .iter()
+            .filter(|drive| drive.coefficient != 0.0)
+            .map(|drive| format!("{:+.4} {}·{}", drive.coefficient, drive.planes[0], drive.planes[1]))
+            .collect();
+        table.add_row([
+            equation.plane.clone(),
+            number(equation.moment),
+            if drives.is_empty() { "nothing".to_owned() } else { drives.join("  ") },
+            number(equation.rate),
+            equation.never_driven_by.join(" "),
+        ]);
+    }
+    table.to_string()
+}
+
+fn drift(report: &Report) -> String {
+    let mut table = table(&["largest relative drift", "energy", "|L|²", "L in the world", "Pfaffian", "Manakov's"], 1);
+    let mut row = |method: &str, drift: &DriftReport| {
+        let exponent = |value: f64| if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") };
+        table.add_row([
+            method.to_owned(),
+            exponent(drift.energy),
+            exponent(drift.angular_momentum_sq),
+            exponent(drift.angular_momentum),
+            drift.pfaffian.map_or_else(|| "-".to_owned(), exponent),
+            exponent(drift.manakov),
+        ]);
+    };
+    row(report.method, &report.max_relative_drift);
+    for compared in &report.compared {
+        row(compared.method, &compared.max_relative_drift);
+    }
+    table.to_string()
+}
+
+fn regularity(report: &Report) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    let flips = &report.flips;
+    if !flips.times.is_empty() {
+        let shown: Vec<String> = flips.times.iter().take(SHOWN_FLIPS).map(|&time| number(time)).collect();
+        let more = if flips.times.len() > SHOWN_FLIPS { ", …" } else { "" };
+        let (count, plane) = (flips.times.len(), &flips.plane);
+        lines.push(("flips", format!("{count} of plane {plane}, at {}{more} s", shown.join(", "))));
+    }
+    if let Some(measured) = report.period.measured {
+        let irregularity = flips.irregularity.unwrap_or(0.0);
+        let regular =
+            if irregularity < 1e-6 { "regular".to_owned() } else { format!("± {:.1} %", 100.0 * irregularity) };
+        lines.push(("period", format!("{measured:.10} s between every other flip, {regular}")));
+    }
+    if let Some(exact) = report.period.exact {
+        let beside = report.period.measured.map(|measured| format!(", measured {:+.1e} off", measured / exact - 1.0));
+        lines.push(("exact period", format!("{exact:.10} s by Jacobi's functions{}", beside.unwrap_or_default())));
+    }
+    if let Some(closed_form) = &report.closed_form {
+        let (kind, error) = (closed_form.kind, closed_form.final_error);
+        lines.push(("closed form", format!("{kind}; the run ends {error:.1e} off")));
+    }
+    lines
+}
