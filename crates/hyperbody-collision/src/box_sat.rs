@@ -11,7 +11,7 @@
 //!
 //! Known in 3D from Gottschalk, Lin and Manocha (1996); "edge × edge" is the family (1, 1) of it.
 
-use hyperbody_math::{Pose, Vector};
+use hyperbody_math::{Matrix, Pose, Vector};
 
 use crate::limits;
 
@@ -96,69 +96,99 @@ pub fn separate_boxes<const N: usize>(
     stop_above: f64,
     previous: Feature,
 ) -> BoxSeparation<N> {
-    let cosines = a_from_b.rotation.matrix();
-    let from_a = Frame { cosines: cosines.0, offset: a_from_b.translation.0, own: half_a.0, foreign: half_b.0 };
-    let from_b = Frame {
-        cosines: cosines.transpose().0,
-        offset: (-cosines.transpose_mul(a_from_b.translation)).0,
-        own: half_b.0,
-        foreign: half_a.0,
-    };
-    let to_a = |found: &Best<N>| Best { direction: -(*cosines * found.direction), ..*found };
-    let mut tried = 0;
-    let axis = |found: Best<N>, feature| BoxAxis { normal: found.direction, separation: found.separation, feature };
-    let answer = |found: Best<N>, feature, axes_tried| {
-        let best = axis(found, feature);
-        BoxSeparation { best, least: best, axes_tried }
-    };
+    let pair = BoxPair::new(half_a, half_b, a_from_b);
+    let facet = pair.best_facet(previous);
+    let facets = 2 * N as u32;
+    if facet.separation > stop_above {
+        return BoxSeparation { best: facet, least: facet, axes_tried: facets };
+    }
+    let mut separation = pair.best_of_all(facet, stop_above, previous);
+    separation.axes_tried += facets;
+    separation
+}
 
-    let facet_a = from_a.facets(&mut tried);
-    if facet_a.separation > stop_above {
-        return answer(facet_a, Feature::FacetOfA, tried);
-    }
-    let facet_b = from_b.facets(&mut tried);
-    if facet_b.separation > stop_above {
-        return answer(to_a(&facet_b), Feature::FacetOfB, tried);
-    }
-    let mut mixed = Best::NONE;
-    for (frame, is_b) in [(&from_a, false), (&from_b, true)] {
-        let mut found = Best { separation: mixed.separation, ..Best::NONE };
-        // (N − 1 − k) own axes and k foreign ones; the middle family of odd N is counted once.
-        let counted = |k: usize| if is_b { 2 * k < N - 1 } else { 2 * k < N };
-        if counted(1) {
-            frame.one_foreign(&mut found, stop_above, &mut tried);
-        }
-        if counted(2) && found.separation <= stop_above {
-            frame.two_foreign(&mut found, stop_above, &mut tried);
-        }
-        if found.separation > mixed.separation {
-            mixed = if is_b { to_a(&found) } else { found };
-        }
-        if mixed.separation > stop_above {
-            return answer(mixed, Feature::Mixed, tried);
+/// Two boxes as both of them see them.
+pub(crate) struct BoxPair<const N: usize> {
+    from_a: Frame<N>,
+    from_b: Frame<N>,
+    /// The least half-extent of both.
+    pub(crate) thickness: f64,
+}
+
+impl<const N: usize> BoxPair<N> {
+    pub(crate) fn new(half_a: &Vector<N>, half_b: &Vector<N>, a_from_b: &Pose<N>) -> Self {
+        let cosines = a_from_b.rotation.matrix();
+        let from_b = -cosines.transpose_mul(a_from_b.translation);
+        let least = |half: &Vector<N>| half.iter().fold(f64::INFINITY, f64::min);
+        Self {
+            from_a: Frame { cosines: cosines.0, offset: a_from_b.translation.0, own: half_a.0, foreign: half_b.0 },
+            from_b: Frame { cosines: cosines.transpose().0, offset: from_b.0, own: half_b.0, foreign: half_a.0 },
+            thickness: least(half_a).min(least(half_b)),
         }
     }
 
-    let least = |half: &Vector<N>| half.iter().fold(f64::INFINITY, f64::min);
-    let size = least(half_a).min(least(half_b));
-    let bonus = |feature: Feature| if feature == previous { limits::HYSTERESIS * size } else { 0.0 };
-    let prefer_b = facet_b.separation + bonus(Feature::FacetOfB)
-        > facet_a.separation + bonus(Feature::FacetOfA) + limits::HYSTERESIS * size;
-    let (facet, feature) = if prefer_b { (to_a(&facet_b), Feature::FacetOfB) } else { (facet_a, Feature::FacetOfA) };
-    let allowance =
-        limits::FACET_PREFERENCE_RELATIVE * facet.separation.abs() + limits::FACET_PREFERENCE_ABSOLUTE * size;
-    if mixed.separation + bonus(Feature::Mixed) > facet.separation + allowance {
-        return answer(mixed, Feature::Mixed, tried);
+    /// What b's frame calls a direction towards a, in a's frame and towards b.
+    fn to_a(&self, direction: Vector<N>) -> Vector<N> {
+        -(Matrix(self.from_a.cosines) * direction)
     }
-    let best = axis(facet, feature);
-    let least = if mixed.separation > facet.separation { axis(mixed, Feature::Mixed) } else { best };
-    BoxSeparation { best, least, axes_tried: tried }
+
+    fn bonus(&self, feature: Feature, previous: Feature) -> f64 {
+        if feature == previous { limits::HYSTERESIS * self.thickness } else { 0.0 }
+    }
+
+    /// The facet normal of either box with the greatest separation.
+    pub(crate) fn best_facet(&self, previous: Feature) -> BoxAxis<N> {
+        let (a, b) = (self.from_a.facets(), self.from_b.facets());
+        let preference = limits::HYSTERESIS * self.thickness;
+        let prefer_b = b.separation + self.bonus(Feature::FacetOfB, previous)
+            > a.separation + self.bonus(Feature::FacetOfA, previous) + preference;
+        if prefer_b {
+            BoxAxis { normal: self.to_a(b.direction), separation: b.separation, feature: Feature::FacetOfB }
+        } else {
+            BoxAxis { normal: a.direction, separation: a.separation, feature: Feature::FacetOfA }
+        }
+    }
+
+    /// The best axis of all, the best facet normal being known.
+    pub(crate) fn best_of_all(&self, facet: BoxAxis<N>, stop_above: f64, previous: Feature) -> BoxSeparation<N> {
+        let mut axes_tried = 0;
+        let mixed = self.best_mixed(stop_above, &mut axes_tried);
+        let allowance = limits::FACET_PREFERENCE_RELATIVE * facet.separation.abs()
+            + limits::FACET_PREFERENCE_ABSOLUTE * self.thickness;
+        let least = if mixed.separation > facet.separation { mixed } else { facet };
+        let leaves = mixed.separation + self.bonus(Feature::Mixed, previous) > facet.separation + allowance;
+        BoxSeparation { best: if leaves { mixed } else { facet }, least, axes_tried }
+    }
+
+    /// The axis with the greatest separation that is not a facet normal.
+    fn best_mixed(&self, stop_above: f64, tried: &mut u32) -> BoxAxis<N> {
+        let mut best = BoxAxis { normal: Vector::ZERO, separation: f64::NEG_INFINITY, feature: Feature::Mixed };
+        for (frame, is_b) in [(&self.from_a, false), (&self.from_b, true)] {
+            let mut found = Best { separation: best.separation, ..Best::NONE };
+            // (N − 1 − k) own axes and k foreign ones; the middle family of odd N is counted once.
+            let counted = |k: usize| if is_b { 2 * k < N - 1 } else { 2 * k < N };
+            if counted(1) {
+                frame.one_foreign(&mut found, stop_above, tried);
+            }
+            if counted(2) && found.separation <= stop_above {
+                frame.two_foreign(&mut found, stop_above, tried);
+            }
+            if found.separation > best.separation {
+                best.separation = found.separation;
+                best.normal = if is_b { self.to_a(found.direction) } else { found.direction };
+            }
+            if best.separation > stop_above {
+                break;
+            }
+        }
+        best
+    }
 }
 
 impl<const N: usize> Frame<N> {
     /// The best own facet normal.
     #[inline]
-    fn facets(&self, tried: &mut u32) -> Best<N> {
+    fn facets(&self) -> Best<N> {
         let mut best = Best::NONE;
         let mut along = 0;
         for i in 0..N {
@@ -172,7 +202,6 @@ impl<const N: usize> Frame<N> {
                 along = i;
             }
         }
-        *tried += N as u32;
         best.direction[along] = if self.offset[along] < 0.0 { -1.0 } else { 1.0 };
         best
     }

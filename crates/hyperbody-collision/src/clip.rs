@@ -4,9 +4,10 @@
 //! double-description method (Motzkin, Raiffa, Thompson, Thrall 1953): vertices outside go, and every edge from inside
 //! to outside leaves a new vertex. Two vertices of a patch of dimension d can be joined by an edge only if they share
 //! at least d − 1 tight constraints. While every vertex is tight on exactly d constraints, as those of boxes and of
-//! simplices in general position are, that is also enough. Once one is tight on more, a pair is an edge only if no third
-//! vertex makes tight all that the two share (Fukuda, Prodon 1996), and vertices that coincide are made one, without
-//! which two copies of a point would hide each other's edges.
+//! simplices in general position are, that is also enough; and up to d = 3 it is but for planes that meet in one edge by
+//! chance, which a few vertices bear, since a false edge adds no more than a point of the patch. Otherwise a pair is an edge only if no third
+//! vertex makes tight all that the two share (Fukuda, Prodon 1996). Vertices that coincide are made one, without which
+//! two copies of a point would hide each other's edges.
 
 use hyperbody_math::Vector;
 
@@ -100,8 +101,9 @@ impl<const N: usize, const W: usize> Clipper<N, W> {
             for word in 0..W {
                 shared[word] = near.tight[word] & far.tight[word];
             }
+            let trust_count = self.simple || (self.dimension <= 3 && before <= FEW_VERTICES);
             let edge = count(&shared) + 1 >= self.dimension
-                && (self.simple || !self.shared_by_a_third(&shared, [inside, outside], before));
+                && (trust_count || !self.shared_by_a_third(&shared, [inside, outside], before));
             if edge {
                 let t = near_distance / (near_distance - far_distance);
                 set(&mut shared, bit);
@@ -174,6 +176,9 @@ pub(crate) fn feature_hash(feature: u32, parity: u32) -> u32 {
     hash = (hash ^ hash >> 13).wrapping_mul(0xc2b2_ae35);
     hash ^ hash >> 16
 }
+
+/// Up to this many vertices false edges cost less than telling them apart.
+const FEW_VERTICES: usize = 20;
 
 /// Distance of two vertices, in parts of the tolerance of planes, up to which they are one: where planes meet at a
 /// small angle their crossing is less certain than they are.

@@ -6,6 +6,10 @@ use hyperbody_geometry::{Core, Polytope};
 use hyperbody_math::{Pose, Vector};
 
 use crate::clip::Clipper;
+use crate::limits;
+
+/// Stands for no facet.
+pub(crate) const NO_FACET: u32 = u32::MAX;
 
 /// A core as its facets. All in the frame of the core.
 #[derive(Clone, Copy)]
@@ -27,25 +31,42 @@ impl<'a, const N: usize> Faces<'a, N> {
     }
 
     /// The facet at the farthest vertex in `direction` whose normal is most aligned with it, with the cosine for a
-    /// unit direction. `None` for segments and points.
-    pub(crate) fn facet_toward(&self, direction: Vector<N>) -> Option<(usize, f64)> {
-        match self {
+    /// unit direction; `previous` if that is as good to a small tolerance. `None` for segments and points.
+    pub(crate) fn facet_toward(&self, direction: Vector<N>, previous: u32) -> Option<(usize, f64)> {
+        let best = match self {
             Self::Box(_) => {
                 let along = direction.axis_of_max_abs();
-                Some((2 * along + usize::from(direction[along] < 0.0), direction[along].abs()))
+                (2 * along + usize::from(direction[along] < 0.0), direction[along].abs())
             }
             Self::Polytope(polytope) => {
                 let vertex = polytope.support_vertex(direction);
-                let mut best = None;
-                for &facet in polytope.facets_of_vertex(vertex) {
-                    let cosine = polytope.facets()[facet as usize].normal.dot(direction);
-                    if best.is_none_or(|(_, most)| cosine > most) {
-                        best = Some((facet as usize, cosine));
+                let facets = polytope.facets_of_vertex(vertex);
+                let cosine = |facet: u32| polytope.facets()[facet as usize].normal.dot(direction);
+                let mut best = (*facets.first()? as usize, f64::NEG_INFINITY);
+                for &facet in facets {
+                    if cosine(facet) > best.1 {
+                        best = (facet as usize, cosine(facet));
                     }
+                }
+                let height = polytope.vertices()[vertex].dot(direction);
+                if facets.binary_search(&previous).is_err() && !reaches(polytope, previous, direction, height) {
+                    return Some(best);
                 }
                 best
             }
-            Self::Segment(_) | Self::Point => None,
+            Self::Segment(_) | Self::Point => return None,
+        };
+        let cosine = self.cosine(previous, direction);
+        let stays = cosine.is_some_and(|cosine| cosine >= best.1 - limits::REFERENCE_PREFERENCE);
+        Some(if stays { (previous as usize, cosine.unwrap_or(best.1)) } else { best })
+    }
+
+    /// Normal of a facet times a direction; `None` if there is no such facet.
+    fn cosine(&self, facet: u32, direction: Vector<N>) -> Option<f64> {
+        match self {
+            Self::Box(_) if (facet as usize) < 2 * N => Some(box_normal::<N>(facet as usize).dot(direction)),
+            Self::Polytope(polytope) => polytope.facets().get(facet as usize).map(|facet| facet.normal.dot(direction)),
+            _ => None,
         }
     }
 
@@ -110,6 +131,13 @@ impl<'a, const N: usize> Faces<'a, N> {
             }
         }
     }
+}
+
+/// Whether a facet has a vertex that is as high along `direction` as the highest, to a small tolerance.
+fn reaches<const N: usize>(polytope: &Polytope<N>, facet: u32, direction: Vector<N>, height: f64) -> bool {
+    let least = height - limits::SAME_HEIGHT * polytope.bounding_radius();
+    let high = |&vertex: &u32| polytope.vertices()[vertex as usize].dot(direction) >= least;
+    polytope.facets().get(facet as usize).is_some_and(|facet| facet.vertices.iter().any(high))
 }
 
 /// Outward normal of a facet of a box.

@@ -24,23 +24,24 @@ pub(crate) fn collide<const N: usize>(
 ) {
     let a_from_b = pair.world_from_a.relative(pair.world_from_b);
     let difference = Difference::new(&pair.a.core, &pair.b.core, &a_from_b);
-    if cache.feature != Feature::None && resting_overlap(pair, &difference, cache, scratch, out) {
+    let overlapped = cache.feature != Feature::None;
+    if overlapped && resting_overlap(pair, &difference, cache, scratch, out) {
         return;
     }
-    collide_known(pair, &difference, cache, scratch, out);
+    search(pair, &difference, !overlapped, cache, scratch, out);
 }
 
-/// The same for a pair whose shapes were looked at already: straight to the distance search.
-pub(crate) fn collide_known<const N: usize>(
+/// Straight to the distance search. `fresh` if an overlap would be a new one, worth a look at the facets first.
+pub(crate) fn search<const N: usize>(
     pair: &Pair<'_, N>,
     difference: &Difference<'_, N>,
+    fresh: bool,
     cache: &mut PairCache<N>,
     scratch: &mut Scratch<N>,
     out: &mut Manifold<N>,
 ) {
     out.clear();
-    let centres = difference.a_from_b.translation;
-    let toward_b = if cache.normal == Vector::ZERO { centres } else { cache.normal };
+    let toward_b = guess(difference, cache);
     let mut turns = 0;
     let proximity = gjk::closest(difference, &cache.seeds, toward_b, pair.margin + pair.rounding, &mut turns);
     scratch.effort.gjk_turns = scratch.effort.gjk_turns.max(turns);
@@ -52,8 +53,17 @@ pub(crate) fn collide_known<const N: usize>(
             cache.seeds = Seeds::default();
         }
         Proximity::Near(closest) => near(pair, difference, &closest, cache, scratch, out),
-        Proximity::Overlap(simplex) => deep(pair, difference, &simplex, cache, scratch, out),
+        Proximity::Overlap(simplex) => {
+            if !(fresh && resting_overlap(pair, difference, cache, scratch, out)) {
+                deep(pair, difference, &simplex, cache, scratch, out);
+            }
+        }
     }
+}
+
+/// The direction of the previous step, or else from centre to centre.
+fn guess<const N: usize>(difference: &Difference<'_, N>, cache: &PairCache<N>) -> Vector<N> {
+    if cache.normal == Vector::ZERO { difference.a_from_b.translation } else { cache.normal }
 }
 
 /// Disjoint cores within the margin.
@@ -75,8 +85,8 @@ fn near<const N: usize>(
     complete(pair, difference, &witness, shown, scratch, out);
 }
 
-/// An overlap that was one in the previous step too: the best facet normal or the facet of D that won then, if it can
-/// be shown to be good enough without a search. `false` leaves the pair to the search.
+/// An overlap that is shallow or was one in the previous step: the best facet normal, or the facet of D that won then,
+/// if it can be shown to be good enough without a search. `false` leaves the pair to the search.
 fn resting_overlap<const N: usize>(
     pair: &Pair<'_, N>,
     difference: &Difference<'_, N>,
@@ -88,12 +98,8 @@ fn resting_overlap<const N: usize>(
         return false;
     }
     let thickness = overlap::thickness(difference);
-    let facet = overlap::best_facet(difference, thickness, cache.feature);
-    let mixed = if cache.feature == Feature::Mixed {
-        overlap::known_facet(difference, cache.seeds.keys(), cache.normal)
-    } else {
-        None
-    };
+    let facet = overlap::best_facet(difference, thickness, cache.feature, guess(difference, cache));
+    let mixed = overlap::known_facet(difference, cache.seeds.keys(), cache.normal);
     let leave_at = |way: &WayOut<N>| overlap::worth_leaving_facet(way.depth, thickness, cache.feature);
     let (way, enough) = match (facet, mixed) {
         (Some(facet), Some(mixed)) if mixed.depth >= leave_at(&facet) => (facet, leave_at(&facet)),
@@ -105,13 +111,14 @@ fn resting_overlap<const N: usize>(
         return false;
     }
     let shown = build(pair, difference, way.normal, cache, scratch, out);
-    if !shown.is_some_and(|shown| shown <= -way.depth + patch_tolerance(difference, way.depth)) {
+    if !shown.is_some_and(|shown| shown <= -way.depth + patch_tolerance(difference, -way.depth)) {
         return false;
     }
     let bound = overlap::least_possible_depth(difference, pair.world_from_a, out);
     let same = way.feature == cache.feature && way.facet == cache.facet;
     let confirmed = bound >= enough;
-    let trusted = same && cache.unconfirmed < limits::RECHECK_AFTER && bound >= limits::RECHECK_FRACTION * way.depth;
+    let harmless = bound >= limits::RECHECK_FRACTION * way.depth || way.depth <= limits::SHALLOW * thickness;
+    let trusted = same && harmless && cache.unconfirmed < limits::RECHECK_AFTER;
     if confirmed || trusted {
         cache.unconfirmed = if confirmed { 0 } else { cache.unconfirmed + 1 };
         (cache.normal, cache.feature, cache.facet) = (way.normal, way.feature, way.facet);
@@ -136,16 +143,16 @@ fn deep<const N: usize>(
     let boxes = matches!((&pair.a.core, &pair.b.core), (Core::Box { .. }, Core::Box { .. }));
     let mut found = None;
     if !boxes {
-        found = Some(search(difference, simplex, enough, scratch));
+        found = Some(penetrate(difference, simplex, enough, scratch));
     }
     // A facet normal that is nearly best shows the contact, or else the best does.
     if let Some(way) = facet.filter(|_| found.is_none_or(|found| found.at_least >= enough || found.depth >= enough)) {
         (cache.normal, cache.feature, cache.facet) = (way.normal, way.feature, way.facet);
         let shown = build(pair, difference, way.normal, cache, scratch, out);
-        if shown.is_some_and(|shown| shown <= -way.depth + patch_tolerance(difference, way.depth)) {
+        if shown.is_some_and(|shown| shown <= -way.depth + patch_tolerance(difference, -way.depth)) {
             return;
         }
-        found = Some(search(difference, simplex, f64::INFINITY, scratch));
+        found = Some(penetrate(difference, simplex, f64::INFINITY, scratch));
     }
     let Some(found) = found else { return };
     (cache.normal, cache.feature, cache.facet) = (found.normal, Feature::Mixed, 0);
@@ -166,10 +173,10 @@ fn preferred_facet<const N: usize>(
         let axis = separate_boxes(half_a, half_b, difference.a_from_b, f64::INFINITY, cache.feature).best;
         return Some(WayOut { normal: axis.normal, depth: -axis.separation, feature: axis.feature, facet: 0 });
     }
-    overlap::best_facet(difference, thickness, cache.feature)
+    overlap::best_facet(difference, thickness, cache.feature, guess(difference, cache))
 }
 
-fn search<const N: usize>(
+fn penetrate<const N: usize>(
     difference: &Difference<'_, N>,
     simplex: &Simplex<N>,
     enough: f64,
@@ -196,7 +203,8 @@ fn deepest<const N: usize>(difference: &Difference<'_, N>, way: &Penetration<N>)
     Witness { normal: way.normal, on_a: middle + half, on_b: middle - half, separation: -way.depth }
 }
 
-fn build<const N: usize>(
+/// Fills `out` with the patch along a normal; see [`patch::build`].
+pub(crate) fn build<const N: usize>(
     pair: &Pair<'_, N>,
     difference: &Difference<'_, N>,
     normal: Vector<N>,
@@ -210,9 +218,9 @@ fn build<const N: usize>(
     patch::build(&a, &b, difference.a_from_b, normal, pair.margin, memory, &mut scratch.patch, out)
 }
 
-/// How much less deep than the way out a patch may be and still show the contact.
-fn patch_tolerance<const N: usize>(difference: &Difference<'_, N>, depth: f64) -> f64 {
-    limits::EQUAL_DEPTH * difference.smaller + limits::FACET_PREFERENCE_RELATIVE * depth.abs()
+/// How much farther apart (or less deep) than `separation` a patch may be and still show the contact.
+pub(crate) fn patch_tolerance<const N: usize>(difference: &Difference<'_, N>, separation: f64) -> f64 {
+    limits::SHOWS * difference.smaller + limits::FACET_PREFERENCE_RELATIVE * (-separation).max(0.0)
 }
 
 /// Adds the witness (in a's frame) unless the patch shows the contact.

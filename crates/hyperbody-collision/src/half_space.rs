@@ -3,7 +3,7 @@
 use hyperbody_geometry::{Convex, Core};
 use hyperbody_math::{Pose, Vector};
 
-use crate::faces::Faces;
+use crate::faces::{Faces, NO_FACET};
 use crate::limits;
 use crate::manifold::{ContactPoint, Manifold, max_points};
 use crate::patch::PatchMemory;
@@ -67,7 +67,7 @@ pub(crate) fn collide<const N: usize>(
 /// Drops vertices that are within reach only because the shape has sunk deep: what is kept belongs to the lowest facet
 /// or is nearly as deep as the deepest. Without this, spread would be sought between the bottom and the top of a box.
 fn keep_lowest<const N: usize>(faces: &Faces<'_, N>, toward_plane: Vector<N>, extent: f64, reducer: &mut Reducer<N>) {
-    let Some((facet, _)) = faces.facet_toward(toward_plane) else { return };
+    let Some((facet, _)) = faces.facet_toward(toward_plane, NO_FACET) else { return };
     let (facet_normal, facet_offset) = faces.plane(facet);
     let least = reducer.candidates.iter().map(|candidate| candidate.separation).fold(f64::INFINITY, f64::min);
     reducer.candidates.retain(|candidate| {

@@ -35,6 +35,15 @@ pub const ON_PLANE: f64 = 1e-12;
 /// the deepest when points are chosen.
 pub const EQUAL_DEPTH: f64 = 1e-4;
 
+/// Height below the farthest vertex, in parts of the polytope's size, up to which another is as far when the facet of
+/// the previous step is to be kept: a fraction of [`SHOWS`].
+pub const SAME_HEIGHT: f64 = 1e-5;
+
+/// How much less deep than its normal says a patch may be and still show the contact, in parts of the size of the
+/// smaller shape; to this comes [`FACET_PREFERENCE_RELATIVE`] of the depth. A patch that falls short is completed by
+/// the closest or deepest points.
+pub const SHOWS: f64 = 5e-5;
+
 /// How much larger a distance has to be (as a factor on its square) to displace a point that was chosen in the
 /// previous step.
 pub const COHERENCE_GAIN: f64 = 1.1;
@@ -70,16 +79,16 @@ pub const MAX_EPA_VERTICES: usize = 512;
 /// Bound on the facets that the penetration search makes: about a megabyte of them.
 pub const MAX_EPA_FACETS: usize = 16_384;
 
-/// Polytopes with more facets than this are not searched facet by facet for the way out; the penetration search alone
-/// decides, and the facets next to its answer are preferred afterwards.
-pub const MAX_FACETS_TRIED: usize = 160;
-
-/// How often in a row a normal that won before may win again because no way out can be shorter than
-/// [`RECHECK_FRACTION`] of its depth, before the full search has to confirm it.
+/// How often in a row a normal that won before, and is still the best in its neighbourhood, may win again without a
+/// full search: because no way out can be shorter than [`RECHECK_FRACTION`] of its depth, or because the overlap is
+/// [`SHALLOW`], so that no way out can be shorter by more than that.
 pub const RECHECK_AFTER: u32 = 16;
 
 /// See [`RECHECK_AFTER`].
 pub const RECHECK_FRACTION: f64 = 0.5;
+
+/// See [`RECHECK_AFTER`]; in parts of the lesser inner radius of the shapes.
+pub const SHALLOW: f64 = 0.05;
 
 /// How far apart sideways two capsules' axes may be at the ends of their common stretch, in parts of the sum of their
 /// radii, to touch at both ends: beyond, the round surfaces fall away from each other.

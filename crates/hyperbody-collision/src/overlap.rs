@@ -47,49 +47,75 @@ pub(crate) fn worth_leaving_facet(depth: f64, thickness: f64, previous: Feature)
 }
 
 /// The facet normal of either shape with the least depth; of nearly equal ones that of the shape that won before, then
-/// a's. `None` if neither has facets, or if they have too many to try.
+/// a's. `None` if neither has facets. `toward_b` is a guess at the answer that saves work.
 pub(crate) fn best_facet<const N: usize>(
     difference: &Difference<'_, N>,
     thickness: f64,
     previous: Feature,
+    toward_b: Vector<N>,
 ) -> Option<WayOut<N>> {
-    let of_a = best_facet_of(difference, difference.a, Feature::FacetOfA);
-    let of_b = best_facet_of(difference, difference.b, Feature::FacetOfB);
+    let [deep_a, deep_b] = difference.vertices(difference.support(toward_b).key);
+    let of_a = best_facet_of(difference, difference.a, Feature::FacetOfA, deep_b);
+    let a_in_b = difference.a_from_b.inverse_transform_point(deep_a);
+    let of_b = best_facet_of(difference, difference.b, Feature::FacetOfB, a_in_b);
     let (Some(a), Some(b)) = (of_a, of_b) else { return of_a.or(of_b) };
     let bonus = limits::HYSTERESIS * thickness;
     let handicap = if previous == Feature::FacetOfB { -bonus } else { bonus };
     Some(if b.depth < a.depth - handicap { b } else { a })
 }
 
+/// The facet normal of one core with the least depth. A point of the other core, in the frame of this one, bounds every
+/// depth from below at the price of one product: a deep one leaves few facets for which the support is asked.
 fn best_facet_of<const N: usize>(
     difference: &Difference<'_, N>,
     core: &Core<N>,
     feature: Feature,
+    deep: Vector<N>,
 ) -> Option<WayOut<N>> {
+    let mut first = (f64::INFINITY, 0);
+    for_each_facet(core, |facet, outward, offset| {
+        let at_least = offset - outward.dot(deep);
+        if at_least < first.0 {
+            first = (at_least, facet);
+        }
+    });
     let mut best: Option<WayOut<N>> = None;
-    let mut consider = |facet: usize, outward: Vector<N>, offset: f64| {
+    let consider = |best: &mut Option<WayOut<N>>, facet: usize, outward: Vector<N>, offset: f64| {
         let (normal, depth) = depth_along(difference, outward, offset, feature);
         if best.is_none_or(|best| depth < best.depth) {
-            best = Some(WayOut { normal, depth, feature, facet: facet as u32 });
+            *best = Some(WayOut { normal, depth, feature, facet: facet as u32 });
         }
     };
+    for_each_facet(core, |facet, outward, offset| {
+        if facet == first.1 {
+            consider(&mut best, facet, outward, offset);
+        }
+    });
+    for_each_facet(core, |facet, outward, offset| {
+        if facet != first.1 && best.is_none_or(|best| offset - outward.dot(deep) < best.depth) {
+            consider(&mut best, facet, outward, offset);
+        }
+    });
+    best
+}
+
+/// Calls `f` with number, outward unit normal and offset of every facet.
+#[inline]
+fn for_each_facet<const N: usize>(core: &Core<N>, mut f: impl FnMut(usize, Vector<N>, f64)) {
     match core {
         Core::Point | Core::Segment { .. } => {}
         Core::Box { half_extents } => {
             for axis in 0..N {
-                consider(2 * axis, Vector::unit(axis), half_extents[axis]);
-                consider(2 * axis + 1, -Vector::unit(axis), half_extents[axis]);
+                f(2 * axis, Vector::unit(axis), half_extents[axis]);
+                f(2 * axis + 1, -Vector::unit(axis), half_extents[axis]);
             }
         }
         Core::Polytope(polytope) => {
-            if polytope.facets().len() <= limits::MAX_FACETS_TRIED {
-                for (index, facet) in polytope.facets().iter().enumerate() {
-                    consider(index, facet.normal, facet.offset);
-                }
+            for (index, facet) in polytope.facets().iter().enumerate() {
+                f(index, facet.normal, facet.offset);
             }
         }
     }
-    best
 }
 
 /// The normal from a to b that an outward facet normal of a or b stands for, and the depth along it.

@@ -3,13 +3,13 @@
 use hyperbody_geometry::{Convex, Core};
 use hyperbody_math::{Pose, Vector};
 
-use crate::box_sat::{BoxSeparation, Feature, separate_boxes};
+use crate::box_sat::{BoxAxis, BoxPair, BoxSeparation, Feature};
 use crate::difference::Difference;
 use crate::manifold::{ContactPoint, Manifold};
 use crate::narrow::{PairCache, Scratch};
-use crate::patch::{self, Side};
+use crate::patch::Side;
 use crate::round::{self, Segment, Witness};
-use crate::{general, limits};
+use crate::{general, limits, overlap};
 
 /// Two rounded cores in the world.
 pub(crate) struct Pair<'a, const N: usize> {
@@ -78,8 +78,9 @@ impl<'a, const N: usize> Pair<'a, N> {
         (Side::new(self.a, self.world_from_a), Side::new(self.b, self.world_from_b))
     }
 
-    /// Two boxes without rounding: separating axes. Where these cannot tell the distance (vertex against vertex and
-    /// the like, within the margin), the distance search decides.
+    /// Two boxes without rounding: separating axes. The best facet normal is right where its patch can be shown to be;
+    /// that spares the mixed axes. Where the axes cannot tell the distance (vertex against vertex and the like, within
+    /// the margin), the distance search decides.
     fn boxes(
         &self,
         half_a: &Vector<N>,
@@ -89,30 +90,61 @@ impl<'a, const N: usize> Pair<'a, N> {
         out: &mut Manifold<N>,
     ) {
         let a_from_b = self.world_from_a.relative(self.world_from_b);
-        let BoxSeparation { best, least, .. } = separate_boxes(half_a, half_b, &a_from_b, self.margin, cache.feature);
-        cache.normal = best.normal;
-        if best.separation > self.margin || !best.separation.is_finite() {
-            cache.feature = Feature::None;
+        let boxes = BoxPair::new(half_a, half_b, &a_from_b);
+        let difference = Difference::new(&self.a.core, &self.b.core, &a_from_b);
+        let facet = boxes.best_facet(cache.feature);
+        let was_mixed = cache.feature == Feature::Mixed;
+        if self.done_with(&facet, cache) {
             return;
         }
-        let (a, b) = self.sides();
-        let tolerance =
-            limits::EQUAL_DEPTH * a.extent.min(b.extent) + limits::FACET_PREFERENCE_RELATIVE * best.separation.abs();
-        for axis in [best, least] {
-            (cache.normal, cache.feature) = (axis.normal, axis.feature);
-            let (memory, scratch) = (&mut cache.patch, &mut scratch.patch);
-            out.clear();
-            let shown = patch::build(&a, &b, &a_from_b, axis.normal, self.margin, memory, scratch, out);
-            if shown.is_some_and(|shown| shown <= axis.separation + tolerance) {
+        let mut tried_facet = false;
+        if !was_mixed && self.shows(&facet, &difference, cache, scratch, out) {
+            let enough = overlap::worth_leaving_facet(-facet.separation, boxes.thickness, cache.feature);
+            // A patch point proves the distance; a depth needs the bound.
+            if facet.separation > 0.0 || overlap::least_possible_depth(&difference, self.world_from_a, out) >= enough {
                 return;
             }
-            if least.normal == best.normal {
-                break;
-            }
+            tried_facet = true;
         }
-        out.clear();
-        let difference = Difference::new(&self.a.core, &self.b.core, &a_from_b);
-        general::collide_known(self, &difference, cache, scratch, out);
+        let BoxSeparation { best, least, .. } = boxes.best_of_all(facet, self.margin, cache.feature);
+        if self.done_with(&best, cache) {
+            out.clear();
+            return;
+        }
+        if tried_facet && best.feature != Feature::Mixed {
+            (cache.normal, cache.feature) = (best.normal, best.feature);
+            return;
+        }
+        if self.shows(&best, &difference, cache, scratch, out)
+            || (least.normal != best.normal && self.shows(&least, &difference, cache, scratch, out))
+        {
+            return;
+        }
+        general::search(self, &difference, false, cache, scratch, out);
+    }
+
+    /// Notes an axis; whether it separates by more than the margin, or is no number.
+    fn done_with(&self, axis: &BoxAxis<N>, cache: &mut PairCache<N>) -> bool {
+        if axis.separation <= self.margin && axis.separation.is_finite() {
+            return false;
+        }
+        (cache.normal, cache.feature) = (axis.normal, Feature::None);
+        true
+    }
+
+    /// Builds the patch along an axis; whether it is as deep as the axis says.
+    fn shows(
+        &self,
+        axis: &BoxAxis<N>,
+        difference: &Difference<'_, N>,
+        cache: &mut PairCache<N>,
+        scratch: &mut Scratch<N>,
+        out: &mut Manifold<N>,
+    ) -> bool {
+        (cache.normal, cache.feature) = (axis.normal, axis.feature);
+        let shown = general::build(self, difference, axis.normal, cache, scratch, out);
+        let tolerance = general::patch_tolerance(difference, axis.separation);
+        shown.is_some_and(|shown| shown <= axis.separation + tolerance)
     }
 
     /// Two cores that are points or segments: balls and capsules.

@@ -16,7 +16,7 @@ use hyperbody_geometry::Convex;
 use hyperbody_math::{Pose, Vector};
 
 use crate::clip::{Clipper, feature_hash};
-use crate::faces::Faces;
+use crate::faces::{Faces, NO_FACET};
 use crate::limits;
 use crate::manifold::{ContactPoint, Manifold, max_points};
 use crate::reduce::{Candidate, Reducer};
@@ -38,11 +38,19 @@ pub(crate) struct PatchScratch<const N: usize> {
 }
 
 /// What is left of the previous step's patch.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct PatchMemory {
-    pub(crate) reference_is_b: bool,
-    pub(crate) ids: [u32; crate::MAX_POINTS],
-    pub(crate) len: u32,
+    reference_is_b: bool,
+    /// The facets of a and b that met.
+    facets: [u32; 2],
+    ids: [u32; crate::MAX_POINTS],
+    len: u32,
+}
+
+impl Default for PatchMemory {
+    fn default() -> Self {
+        Self { reference_is_b: false, facets: [NO_FACET; 2], ids: [0; crate::MAX_POINTS], len: 0 }
+    }
 }
 
 impl PatchMemory {
@@ -94,8 +102,9 @@ pub(crate) fn build<const N: usize>(
     scratch: &mut PatchScratch<N>,
     out: &mut Manifold<N>,
 ) -> Option<f64> {
-    let facet_a = a.faces.facet_toward(normal);
-    let facet_b = b.faces.facet_toward(-a_from_b.rotation.inverse_rotate(normal));
+    let facet_a = a.faces.facet_toward(normal, memory.facets[0]);
+    let facet_b = b.faces.facet_toward(-a_from_b.rotation.inverse_rotate(normal), memory.facets[1]);
+    memory.facets = [facet_a, facet_b].map(|facet| facet.map_or(NO_FACET, |(facet, _)| facet as u32));
     let reference_is_b = match (facet_a, facet_b) {
         (Some((_, cosine_a)), Some((_, cosine_b))) => {
             let preference = if memory.reference_is_b { -1.0 } else { 1.0 } * limits::REFERENCE_PREFERENCE;
