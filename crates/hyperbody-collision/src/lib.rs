@@ -6,6 +6,8 @@
 //! | [`narrow`] | [`collide`]: the contacts of one pair of pieces; picks the method for the pair |
 //! | [`manifold`] | [`Manifold`]: a normal and the few points that hold a contact |
 //! | [`box_sat`] | separating axes of two boxes, all C(2N, N−1) of them |
+//! | [`ray`] | [`cast`](ray::cast): where a ray first meets a shape |
+//! | [`point`] | whether a point, or an axis-aligned box, is in a shape |
 //! | [`limits`] | every tolerance and every bound on a loop, each with its reason |
 //!
 //! Every shape is a polyhedral core rounded by a radius ([`hyperbody_geometry::Convex`]), or a half-space. Touching,
@@ -26,6 +28,8 @@ pub mod narrow;
 mod overlap;
 mod pair;
 mod patch;
+pub mod point;
+pub mod ray;
 mod reduce;
 mod round;
 mod simplex;
@@ -33,4 +37,5 @@ pub mod tree;
 
 pub use manifold::{ContactPoint, MAX_POINTS, Manifold, max_points};
 pub use narrow::{Effort, PairCache, Scratch, collide};
-pub use tree::DynamicTree;
+pub use ray::{Ray, RayHit};
+pub use tree::{DynamicTree, RayStack};

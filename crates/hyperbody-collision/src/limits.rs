@@ -93,3 +93,14 @@ pub const SHALLOW: f64 = 0.05;
 /// How far apart sideways two capsules' axes may be at the ends of their common stretch, in parts of the sum of their
 /// radii, to touch at both ends: beyond, the round surfaces fall away from each other.
 pub const ASIDE: f64 = 0.02;
+
+/// Gap to a rounded solid at which a ray has arrived, in parts of the solid's size: a few roundings of a point.
+pub const RAY_GAP: f64 = 1e-15;
+
+/// Bound on the turns of a ray against a rounded solid. A grazing ray halves its distance each turn, so this covers
+/// every bit of a number.
+pub const MAX_RAY_TURNS: u32 = 64;
+
+/// Slack when a ray is clipped against the boxes of the tree, relative: three roundings each way (T. Ize, "Robust BVH
+/// ray traversal", 2013).
+pub const RAY_BOX_SLACK: f64 = 1e-15;

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`world`] | [`World`]: bodies and joints go in, `step` moves them, results are read |
 //! | [`body`] | what a body is, how it is defined, read and pushed |
+//! | [`queries`] | what is where: rays, points, boxes |
 //! | [`joint`] | what ties bodies together |
 //! | [`material`] | friction, restitution, density |
 //! | [`tuning`] | every tunable number, with its reason |
@@ -28,6 +29,7 @@ pub mod material;
 mod measure;
 mod narrow_phase;
 mod pairs;
+pub mod queries;
 mod solver;
 mod step;
 pub mod timings;
@@ -41,6 +43,7 @@ pub use joint::JointDef;
 pub use material::Material;
 pub use measure::Energy;
 pub use narrow_phase::ContactRef;
+pub use queries::{BodyHit, Queries, QueryScratch};
 pub use timings::StageTimings;
 pub use tuning::Tuning;
 pub use world::{World, WorldDef};

@@ -10,7 +10,10 @@
 //! The order of results depends on nothing but the sequence of operations. Queries take their stack from the caller
 //! and so allocate nothing once it has grown.
 
+mod ray;
 mod rebuild;
+
+pub use ray::RayStack;
 
 use hyperbody_geometry::Aabb;
 use hyperbody_math::Vector;

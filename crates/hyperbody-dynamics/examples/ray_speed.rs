@@ -1,0 +1,96 @@
+//! Rays a second on one thread against 1,000 cubes in a pile, in every dimension:
+//! `cargo run --release -p hyperbody-dynamics --example ray_speed`
+
+use std::time::Instant;
+
+use hyperbody_collision::ray::Ray;
+use hyperbody_dynamics::{BodyDef, QueryScratch, World, WorldDef, WorldError};
+use hyperbody_geometry::Shape;
+use hyperbody_math::{Bivector, Rotation, Vector};
+
+const BODIES: usize = 1000;
+const RAYS: usize = 1_000_000;
+
+/// Numbers in [−1, 1) by SplitMix64 (S. Vigna, 2015).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn vector<const N: usize>(&mut self, reach: f64) -> Vector<N> {
+        Vector::from_fn(|_| self.next() * reach)
+    }
+
+    fn rotation<const N: usize>(&mut self) -> Rotation<N> {
+        let mut turn = Bivector::ZERO;
+        for i in 0..N {
+            for j in i + 1..N {
+                turn.set(i, j, self.next());
+            }
+        }
+        Rotation::exp(&turn)
+    }
+}
+
+/// Turned cubes with edges of 1 m in a grid 1.6 m apart, as they lie in a pile, on a floor.
+fn pile<const N: usize>(random: &mut Random) -> Result<(World<N>, f64), WorldError> {
+    let mut world = World::<N>::new(WorldDef::default())?;
+    world.add_body(BodyDef::fixed(Shape::half_space(Vector::unit(1), 0.0)?))?;
+    let across = (1..).find(|k: &usize| k.pow(N as u32) >= BODIES).unwrap_or(1);
+    let half_width = 0.8 * across as f64;
+    for index in 0..BODIES {
+        let mut cell = index;
+        let corner = Vector::from_fn(|_| {
+            let column = cell % across;
+            cell /= across;
+            1.6 * column as f64 + 0.8 - half_width
+        });
+        let position = corner + Vector::unit(1) * (half_width + 0.2) + random.vector(0.2);
+        world.add_body(BodyDef::new(Shape::cuboid([0.5; N])?).position(position).rotation(random.rotation()))?;
+    }
+    Ok((world, half_width))
+}
+
+fn time<const N: usize>() -> Result<(), WorldError> {
+    let mut random = Random(2020);
+    let (world, half_width) = pile::<N>(&mut random)?;
+    let queries = world.queries();
+    let up = Vector::unit(1) * half_width;
+    // From outside of the pile through any two of its points.
+    let rays: Vec<Ray<N>> = (0..RAYS)
+        .map(|_| {
+            let target = random.vector::<N>(half_width) + up;
+            let away = random.vector::<N>(1.0).normalize_or_zero();
+            Ray::between(target + away * (3.0 * half_width), target).up_to(2.0)
+        })
+        .collect();
+    let mut scratch = QueryScratch::default();
+    let mut timed = |name: &str, cast: &mut dyn FnMut(&Ray<N>, &mut QueryScratch) -> bool| {
+        let start = Instant::now();
+        let hits = rays.iter().filter(|ray| cast(ray, &mut scratch)).count();
+        let seconds = start.elapsed().as_secs_f64();
+        println!(
+            "{N}D {name:9} {:6.2} million rays/s, {:3.0} % hit",
+            RAYS as f64 / seconds / 1e6,
+            1e2 * hits as f64 / RAYS as f64
+        );
+    };
+    timed("first hit", &mut |ray, scratch| queries.ray_cast(ray, scratch, |_| true).is_some());
+    timed("any hit", &mut |ray, scratch| queries.ray_meets_any(ray, scratch, |_| true));
+    Ok(())
+}
+
+fn main() -> Result<(), WorldError> {
+    time::<2>()?;
+    time::<3>()?;
+    time::<4>()?;
+    time::<5>()?;
+    time::<6>()
+}
