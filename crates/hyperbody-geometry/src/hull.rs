@@ -26,7 +26,8 @@ use hyperbody_math::Vector;
 
 use crate::error::GeometryErrorKind::{BadCount, BadNumber, Flat, Unsupported};
 use crate::tolerances::{
-    FLATNESS, HULL_ATTEMPTS, HULL_TOLERANCE, HULL_TOLERANCE_GROWTH, MAX_HULL_POINTS, MAX_HULL_SIMPLICES,
+    FLATNESS, HULL_ATTEMPTS, HULL_TOLERANCE, HULL_TOLERANCE_GROWTH, MAX_GROWN_TOLERANCE, MAX_HULL_POINTS,
+    MAX_HULL_SIMPLICES,
 };
 use crate::{GeometryError, Polytope, Result};
 use kernel::{Exact, Thick};
@@ -81,6 +82,9 @@ fn hull_of_scaled<const N: usize>(
         match attempt {
             Err(Failure::Inconsistent(_)) => thick.tolerance *= HULL_TOLERANCE_GROWTH,
             other => return other,
+        }
+        if thick.tolerance > MAX_GROWN_TOLERANCE {
+            break;
         }
     }
     let exact = Exact::new(points, &corners);

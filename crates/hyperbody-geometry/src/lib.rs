@@ -9,6 +9,7 @@
 //! | [`hull`] | the convex hull of points |
 //! | [`regular`] | the regular polytopes by name |
 //! | [`off`] | OFF files |
+//! | [`section`] | [`SectionPolytope`]: sections by hyperplanes |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`volume`] | volumes of balls |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
@@ -26,6 +27,7 @@ pub mod off;
 pub mod polytope;
 mod quadrature;
 pub mod regular;
+pub mod section;
 pub mod shape;
 pub mod tolerances;
 pub mod volume;
@@ -37,4 +39,5 @@ pub use face_lattice::{Face, FaceLattice};
 pub use mass::MassProperties;
 pub use off::OffFile;
 pub use polytope::Polytope;
+pub use section::{SectionPolytope, SectionScratch, SliceFrame};
 pub use shape::{Piece, Shape};

@@ -26,12 +26,20 @@ pub const HULL_TOLERANCE: f64 = 1e-10;
 /// Tolerances tried, each this many times the one before, when rounding makes the facets contradict each other.
 pub(crate) const HULL_TOLERANCE_GROWTH: f64 = 10.0;
 
-/// How often a hull is tried. The last tolerance is 1e-7, the precision of coordinates stored with seven digits.
+/// Largest tolerance that is tried without having been asked for: the precision of coordinates stored with seven digits. A
+/// hyperplane much thicker than the coordinates are precise swallows facets that are meant.
+pub(crate) const MAX_GROWN_TOLERANCE: f64 = 1.001e-7;
+
+/// How often a hull is tried at most.
 pub(crate) const HULL_ATTEMPTS: u32 = 4;
 
 /// Points that lie this close to a flat of lower dimension have no hull, relative to the half-width of the point set:
 /// thinner bodies could not be told from the errors of their own facets.
 pub const FLATNESS: f64 = 1e-8;
+
+/// Vertices this close to a hyperplane lie in it when a polytope is cut, in parts of its size and distance from the origin:
+/// hundreds of times what rounding does to a vertex and a frame, and far below anything that can be seen or held.
+pub const SECTION_TOLERANCE: f64 = 1e-12;
 
 /// Most points of a hull: their indices and distances must fit into memory without a second thought.
 pub const MAX_HULL_POINTS: usize = 1 << 22;

@@ -91,6 +91,26 @@ impl<const N: usize> MassProperties<N> {
     }
 }
 
+impl<const N: usize> MassProperties<N> {
+    /// The properties at unit density of simplices, each `N + 1` indices into `points`, that do not overlap. All zero for
+    /// none.
+    pub(crate) fn of_filling(points: &[Vector<N>], simplices: &[Vec<u32>]) -> Self {
+        let Some(first) = simplices.first() else {
+            return Self { mass: 0.0, centre: Vector::ZERO, second_moments: Matrix::ZERO };
+        };
+        let reference = points[first[0] as usize];
+        let mut moments = Moments::<N>::ZERO;
+        for simplex in simplices {
+            let base: [Vector<N>; N] = std::array::from_fn(|i| points[simplex[i + 1] as usize]);
+            let apex = points[simplex[0] as usize];
+            let volume = Matrix::from_columns(base.map(|p| p - apex)).determinant().abs() / factorial(N);
+            let corners: Vec<Vector<N>> = simplex.iter().map(|&v| points[v as usize] - reference).collect();
+            moments.add_simplex(volume, &corners);
+        }
+        moments.properties(reference)
+    }
+}
+
 /// The properties of a convex polytope at unit density.
 pub(super) fn of_polytope<const N: usize>(polytope: &Polytope<N>) -> MassProperties<N> {
     let reference = polytope.vertex_mean();
