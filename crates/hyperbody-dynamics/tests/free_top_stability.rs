@@ -171,20 +171,26 @@ fn verdicts_agree_with_measured_growth_in_ten_thousand_random_cases() {
 #[test]
 fn perturbed_runs_grow_as_the_eigenvalues_say() {
     let top = top_4321();
-    for (spin, rate) in [
-        (Bivector::plane(0, 2, 1.0), 0.169_031),
-        (Bivector::plane(1, 3, 1.0), 0.258_199),
-        (Bivector::plane(0, 3, 1.0), 0.333_333),
+    for spin in [
+        Bivector::plane(0, 2, 1.0),
+        Bivector::plane(1, 3, 1.0),
+        Bivector::plane(0, 3, 1.0),
+        double((0, 2), 1.0, (1, 3), 0.8),
+        // Below the threshold: growth that oscillates.
+        double((0, 3), 1.0, (1, 2), 0.5),
+        double((0, 3), 1.0, (1, 2), 0.9),
+        double((0, 3), 1.0, (1, 2), 0.95),
     ] {
-        let rotation = PrincipalRotation::new(&spin).expect("a simple rotation");
-        let run = perturbed_run(&top, &rotation, 500.0).expect("a short run");
-        assert!(run.ran_away && (run.growth_rate / rate - 1.0).abs() < 0.01, "{} for {rate}", run.growth_rate);
+        let judged = judge(&top, &spin);
+        let (rate, rotation) = (judged.growth_rate, judged.rotation);
+        let run = perturbed_run(&top, &rotation, 1500.0).expect("a short run");
+        assert!(run.ran_away && (run.growth_rate / rate - 1.0).abs() < 2e-3, "{} for {rate}", run.growth_rate);
     }
     for spin in [Bivector::plane(0, 1, 1.0), double((0, 1), 1.0, (2, 3), 0.3), double((0, 3), 1.0, (1, 2), 1.2)] {
         let rotation = PrincipalRotation::new(&spin).expect("disjoint planes");
         let run = perturbed_run(&top, &rotation, 500.0).expect("a short run");
         assert!(!run.ran_away && run.growth_rate.abs() < 1e-3, "grows at {}", run.growth_rate);
-        assert!(run.deviations.iter().all(|&deviation| deviation < 1e-6));
+        assert!(run.deviations.iter().all(|&deviation| deviation < 1e-8));
     }
 }
 
@@ -234,7 +240,7 @@ fn equal_moments_make_a_disturbance_drift_or_leave_it_bounded() {
     let judged = judge(&blocks, &double((0, 1), 1.0, (2, 3), 0.4));
     let rotation = PrincipalRotation::new(&double::<4>((0, 1), 1.0, (2, 3), 0.4)).expect("disjoint");
     let run = perturbed_run(&blocks, &rotation, 2000.0).expect("a short run");
-    let bounded = run.deviations.iter().all(|&deviation| deviation < 1e-7);
+    let bounded = run.deviations.iter().all(|&deviation| deviation < 1e-9);
     assert_eq!(judged.verdict.stable(), bounded.then_some(true), "{}", judged.why);
 
     // Equal moments of the two inner axes with a simple outer turn: twice the same frequency, but no coupling.

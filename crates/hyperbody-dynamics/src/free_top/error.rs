@@ -40,6 +40,18 @@ impl FreeTopError {
     }
 }
 
+/// A number in a message: whole numbers without a point, very large and very small ones with an exponent.
+pub(crate) fn shown(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
+/// As [`shown`], with six significant digits at most.
+pub(crate) fn rounded(value: f64) -> String {
+    // Digits written and read again are the nearest number that needs no more of them.
+    format!("{value:.5e}").parse().map_or_else(|_| shown(value), shown)
+}
+
 impl fmt::Display for FreeTopError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
@@ -50,3 +62,17 @@ impl Error for FreeTopError {}
 
 /// The result of asking the free-rotation laboratory.
 pub type Result<T> = std::result::Result<T, FreeTopError>;
+
+#[cfg(test)]
+mod tests {
+    use super::{rounded, shown};
+
+    #[test]
+    fn numbers_are_as_short_as_they_can_be() {
+        assert_eq!([4.0, -0.25, 1e300, 1e-320].map(shown), ["4", "-0.25", "1e300", "1e-320"]);
+        assert_eq!(
+            [1.2000000000000002, 2.0 / 3.0, 123456789.0, f64::NAN].map(rounded),
+            ["1.2", "0.666667", "123457000", "NaN"]
+        );
+    }
+}

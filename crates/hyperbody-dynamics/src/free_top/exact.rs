@@ -10,7 +10,7 @@
 
 use hyperbody_math::{Bivector, Rotation};
 
-use super::error::{FreeTopError, FreeTopErrorKind, Result};
+use super::error::{FreeTopError, FreeTopErrorKind, Result, rounded};
 use super::state::TopState;
 use super::three_axes::ThreeAxesMotion;
 use super::top::FreeTop;
@@ -52,9 +52,9 @@ impl<const N: usize> ExactMotion<N> {
         Err(FreeTopError::new(
             FreeTopErrorKind::NoClosedForm,
             format!(
-                "no closed form is known here for the moments {:?} with this spin: it takes at most two different \
+                "no closed form is known here for the moments {} with this spin: it takes at most two different \
                  moments, a spin within three axes, or a steady spin; use splitting6",
-                top.principal_moments().0
+                top.principal_moments().iter().map(rounded).collect::<Vec<_>>().join(", ")
             ),
         ))
     }

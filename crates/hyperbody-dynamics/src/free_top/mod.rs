@@ -15,7 +15,7 @@
 //! | [`run`](mod@run) | recorded runs with error control on request |
 //! | [`flips`] | when a spin turns over |
 //! | [`principal_rotation`], [`stability`](mod@stability) | steady rotations and whether disturbances of them grow |
-//! | [`growth`] | growth rates, measured |
+//! | [`growth`], `growth_fit` | growth rates, measured |
 //! | [`sweep`] | maps of stability |
 //!
 //! ```
@@ -42,6 +42,7 @@ pub mod error;
 pub mod exact;
 pub mod flips;
 pub mod growth;
+mod growth_fit;
 pub mod invariants;
 pub mod method;
 pub mod midpoint;

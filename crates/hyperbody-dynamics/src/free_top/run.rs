@@ -2,7 +2,7 @@
 
 use hyperbody_math::Bivector;
 
-use super::error::{FreeTopError, FreeTopErrorKind, Result};
+use super::error::{FreeTopError, FreeTopErrorKind, Result, shown};
 use super::exact::ExactMotion;
 use super::flips::{FlipDetector, Flips};
 use super::invariants::{Drift, DriftMeter, Invariants};
@@ -53,15 +53,16 @@ impl RunPlan {
     pub fn steps(&self) -> Result<u64> {
         for (what, value) in [("duration", self.seconds), ("step", self.dt)] {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(bad_span(format!("the {what} is {value} s; it must be finite and positive")));
+                return Err(bad_span(format!("the {what} is {} s; it must be finite and positive", shown(value))));
             }
         }
         // A duration that is a whole number of steps up to rounding takes that number.
         let steps = (self.seconds / self.dt * (1.0 - 1e-12)).ceil().max(1.0);
         if steps > MAX_STEPS as f64 {
             return Err(bad_span(format!(
-                "{} s in steps of {} s are {steps:.0} steps; at most {MAX_STEPS} are followed",
-                self.seconds, self.dt
+                "{} s in steps of {} s are {steps:.1e} steps; at most {MAX_STEPS} are followed",
+                shown(self.seconds),
+                shown(self.dt)
             )));
         }
         Ok(steps as u64)
@@ -77,7 +78,7 @@ impl RunPlan {
         }
         match self.tolerance {
             Some(tolerance) if !(tolerance > 0.0 && tolerance.is_finite()) => {
-                Err(bad_span(format!("the tolerance is {tolerance}; it must be finite and positive")))
+                Err(bad_span(format!("the tolerance is {}; it must be finite and positive", shown(tolerance))))
             }
             _ => Ok(steps),
         }
@@ -222,7 +223,7 @@ impl ErrorControl {
         Err(FreeTopError::new(
             FreeTopErrorKind::NoConvergence,
             format!(
-                "after {MAX_HALVINGS} halvings a step of {dt} s still changes by {error:.1e}, more than the tolerance \
+                "after {MAX_HALVINGS} halvings a step of {dt:.3e} s still changes by {error:.1e}, more than the tolerance \
                  {tolerance:.1e}: rounding does not allow less; raise the tolerance or take a method of higher order"
             ),
         ))

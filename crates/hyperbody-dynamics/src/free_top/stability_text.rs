@@ -2,6 +2,7 @@
 
 use hyperbody_math::planes;
 
+use super::error::rounded;
 use super::principal_rotation::PrincipalTurn;
 use super::stability::{Block, BlockKind, MAX_DISTURBANCE, Partner, Stability, Verdict, inner_turn_threshold};
 use super::top::FreeTop;
@@ -43,7 +44,7 @@ fn axis_name(axis: usize) -> char {
 }
 
 fn moment_of<const N: usize>(top: &FreeTop<N>, axis: usize) -> String {
-    format!("J_{} = {}", axis_name(axis), top.principal_moments()[axis])
+    format!("J_{} = {}", axis_name(axis), rounded(top.principal_moments()[axis]))
 }
 
 fn why_stable<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> String {
@@ -64,7 +65,11 @@ fn why_stable<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> Str
         sentences.push(format!("no other axis has a moment between {}", ranges.join(", or between ")));
     }
     sentences.extend(reasons);
-    if sentences.is_empty() { "there is only one plane".to_owned() } else { sentences.join("; ") }
+    if sentences.is_empty() {
+        "in two dimensions there is only one plane, and nothing that could disturb it".to_owned()
+    } else {
+        sentences.join("; ")
+    }
 }
 
 fn why_unstable<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> String {
@@ -75,13 +80,13 @@ fn why_unstable<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> S
             worst = block;
         }
     }
-    let seconds = 1.0 / worst.growth_rate;
+    let seconds = rounded(1.0 / worst.growth_rate);
     let how = if worst.kind == BlockKind::GrowingOscillation { "oscillates and grows" } else { "grows" };
     match worst.partner {
         Partner::IdleAxis(axis) => {
             let PrincipalTurn { i, j, .. } = worst.turn;
             format!(
-                "{} lies between {} and {}: a disturbance in {} and {} {how} e-fold in {seconds:.4} s",
+                "{} lies between {} and {}: a disturbance in {} and {} {how} e-fold in {seconds} s",
                 moment_of(top, axis),
                 moment_of(top, i),
                 moment_of(top, j),
@@ -90,7 +95,7 @@ fn why_unstable<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> S
             )
         }
         Partner::Turn(other) => {
-            format!("{}: a disturbance {how} e-fold in {seconds:.4} s", pair_reason(top, worst.turn, other))
+            format!("{}: a disturbance {how} e-fold in {seconds} s", pair_reason(top, worst.turn, other))
         }
     }
 }

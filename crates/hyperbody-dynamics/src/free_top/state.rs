@@ -11,7 +11,7 @@
 
 use hyperbody_math::{Bivector, Dim, EvenAlgebra, Rotation, Rotor};
 
-use super::error::{FreeTopError, FreeTopErrorKind, Result};
+use super::error::{FreeTopError, FreeTopErrorKind, Result, shown};
 use super::top::FreeTop;
 
 /// Attitude and momentum of a free body. Body axes are principal axes.
@@ -34,7 +34,11 @@ impl<const N: usize> TopState<N> {
         if !(spin_in_body.is_finite() && momentum_in_body.norm_sq().is_finite()) {
             return Err(FreeTopError::new(
                 FreeTopErrorKind::Spin,
-                format!("the spin {:?} rad/s is not finite or too large", spin_in_body.planes().collect::<Vec<_>>()),
+                format!(
+                    "a spin of {} rad/s in its fastest plane has no finite angular momentum and energy with these moments; \
+                     give a finite one, and a slower one",
+                    shown(spin_in_body.planes().map(f64::abs).fold(0.0, f64::max))
+                ),
             ));
         }
         Ok(Self { world_from_body, momentum_in_body })

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use hyperbody_math::{Bivector, planes};
 use rayon::prelude::*;
 
-use super::error::{FreeTopError, FreeTopErrorKind, Result};
+use super::error::{FreeTopError, FreeTopErrorKind, Result, shown};
 use super::growth::linearised_growth_rate;
 use super::principal_rotation::PrincipalRotation;
 use super::run::bad_span;
@@ -34,8 +34,10 @@ impl MapRange {
     pub fn new(from: f64, to: f64, count: usize) -> Result<Self> {
         if !(from.is_finite() && to.is_finite() && from < to && (2..=MAX_CELLS).contains(&count)) {
             return Err(bad_span(format!(
-                "a map from {from} to {to} with {count} values; the ends must be finite and in order, and the values from \
-                 2 to {MAX_CELLS}"
+                "a map from {} to {} with {count} values; the ends must be finite and in order, and the values from 2 to \
+                 {MAX_CELLS}",
+                shown(from),
+                shown(to)
             )));
         }
         Ok(Self { from, to, count })
@@ -103,7 +105,11 @@ pub fn map_spins<const N: usize>(
     if !distinct {
         return Err(FreeTopError::new(
             FreeTopErrorKind::Spin,
-            format!("the planes {first:?} and {second:?} must have four different axes below {N}"),
+            format!(
+                "the planes {} and {} must have four different axes of {N} dimensions, such as xy and zw",
+                plane_text(first),
+                plane_text(second)
+            ),
         ));
     }
     fill(x, y, progress, |a, b| {
@@ -128,15 +134,30 @@ pub fn map_moments<const N: usize>(
 ) -> Result<StabilityMap> {
     if first == second || first >= N || second >= N {
         return Err(bad_span(format!(
-            "the moments of axes {first} and {second} were to vary; name two axes below {N}"
+            "the moments of axes {} and {} were to vary; name two different axes of {N} dimensions",
+            axis_text(first),
+            axis_text(second)
         )));
     }
-    PrincipalRotation::new(spin)?;
+    if PrincipalRotation::new(spin)?.turns().is_empty() {
+        return Err(FreeTopError::new(
+            FreeTopErrorKind::Spin,
+            "the body does not turn in any plane, so there is nothing to map; give a steady spin such as xw=1",
+        ));
+    }
     fill(x, y, progress, |a, b| {
         let mut moments = *top.principal_moments();
         (moments[first], moments[second]) = (a, b);
         cell(&FreeTop::new(moments)?, spin)
     })
+}
+
+fn axis_text(axis: usize) -> String {
+    planes::AXIS_NAMES.get(axis).map_or_else(|| axis.to_string(), char::to_string)
+}
+
+fn plane_text((i, j): (usize, usize)) -> String {
+    axis_text(i) + &axis_text(j)
 }
 
 fn cell<const N: usize>(top: &FreeTop<N>, spin: &Bivector<N>) -> Result<MapCell> {

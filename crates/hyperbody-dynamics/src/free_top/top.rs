@@ -10,7 +10,7 @@
 use hyperbody_geometry::{MassProperties, Shape};
 use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
-use super::error::{FreeTopError, FreeTopErrorKind, Result};
+use super::error::{FreeTopError, FreeTopErrorKind, Result, rounded, shown};
 
 /// Largest relative contradiction between given moments of inertia that counts as rounding.
 const MOMENT_TOLERANCE: f64 = 1e-9;
@@ -37,8 +37,9 @@ impl<const N: usize> FreeTop<N> {
         for (axis, moment) in principal_moments.iter().enumerate() {
             if !(moment >= 0.0 && moment.is_finite()) {
                 return Err(bad_moments(format!(
-                    "the second moment of axis {} is {moment}; it is ∫ρ x² dV and must be finite and not negative",
-                    planes::AXIS_NAMES[axis]
+                    "the second moment of axis {} is {}; it is ∫ρ x² dV and must be finite and not negative",
+                    planes::AXIS_NAMES[axis],
+                    shown(moment)
                 )));
             }
         }
@@ -48,9 +49,10 @@ impl<const N: usize> FreeTop<N> {
             let inverse = 1.0 / inertia;
             if !(inertia.is_finite() && inverse.is_finite()) {
                 return Err(bad_moments(format!(
-                    "the moment of inertia of plane {} is J_i + J_j = {inertia}; it and its inverse must be finite, \
+                    "the moment of inertia of plane {} is J_i + J_j = {}; it and its inverse must be finite, \
                      so at most one second moment may be zero",
-                    planes::name(i, j)
+                    planes::name(i, j),
+                    shown(inertia)
                 )));
             }
             inverse_inertia[i][j] = inverse;
@@ -77,7 +79,7 @@ impl<const N: usize> FreeTop<N> {
             )));
         };
         if let Some(bad) = plane_moments.iter().find(|m| !(m.is_finite() && **m > 0.0)) {
-            return Err(bad_moments(format!("a moment of inertia is {bad}; it must be finite and positive")));
+            return Err(bad_moments(format!("a moment of inertia is {}; it must be finite and positive", shown(*bad))));
         }
         let largest = plane_moments.iter().fold(0.0, |a: f64, &b| a.max(b));
         let total = plane_moments.iter().sum::<f64>() / (N as f64 - 1.0);
@@ -92,10 +94,11 @@ impl<const N: usize> FreeTop<N> {
             let given = inertia.get(i, j);
             if (moments[i] + moments[j] - given).abs() > MOMENT_TOLERANCE * largest {
                 return Err(bad_moments(format!(
-                    "the moment of inertia of plane {} is {given}, but the other planes leave it only {}: in {N} \
+                    "the moment of inertia of plane {} is {}, but the other planes leave it {}: in {N} \
                      dimensions the moments I_ij = J_i + J_j depend on {N} numbers; give second moments instead",
                     planes::name(i, j),
-                    moments[i] + moments[j]
+                    shown(given),
+                    rounded(moments[i] + moments[j])
                 )));
             }
         }
@@ -105,7 +108,7 @@ impl<const N: usize> FreeTop<N> {
                     "these moments of inertia leave axis {} a second moment of {}, which must not be negative: \
                      in 3D this is the triangle inequality, no moment may exceed the sum of the other two",
                     planes::AXIS_NAMES[axis],
-                    moments[axis]
+                    rounded(moments[axis])
                 )));
             }
             moments[axis] = moments[axis].max(0.0);
