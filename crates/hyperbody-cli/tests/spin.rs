@@ -82,8 +82,8 @@ fn the_three_pairs_of_planes_have_their_verdicts() {
         assert_eq!(found["stability"]["stable"], stable, "{spin}: {}", found["stability"]);
         let [rate, measured] = ["growth_rate", "measured_growth_rate"].map(|key| number(&found["stability"][key]));
         assert_eq!(rate > 0.0, stable == Value::Bool(false), "{spin}");
-        if rate > 0.05 {
-            assert!((measured / rate - 1.0).abs() < 0.02, "{spin}: measured {measured}, exact {rate}");
+        if rate > 1e-2 {
+            assert!((measured / rate - 1.0).abs() < 2e-3, "{spin}: measured {measured}, exact {rate}");
         }
     }
 }
@@ -193,6 +193,7 @@ fn pictures_can_be_read_and_have_the_same_bytes_every_time() {
         let svg = std::str::from_utf8(&bytes[0]).expect("UTF-8");
         let tree = Tree::from_str(svg, &Options::default()).expect("a well-formed SVG");
         assert!(svg.contains("time (s)") && svg.contains("relative drift"), "titles and units");
+        assert!(svg.contains("xz = 1 rad/s, 0.01 rad/s in every other plane"), "what was run");
         let pixels = Pixmap::decode_png(&bytes[2]).expect("a PNG");
         assert_eq!((pixels.width(), pixels.height()), (tree.size().width() as u32, tree.size().height() as u32));
         let inked = pixels.pixels().iter().filter(|pixel| pixel.red() < 128).count();
@@ -237,6 +238,7 @@ fn maps_show_the_exact_boundary() {
         // Segments next to a = b = 0, where nothing turns, aside.
         assert!((b.abs() - threshold * a.abs()).abs() < 1e-9 || a.abs().max(b.abs()) < 0.11, "({a}, {b})");
     }
+    assert_eq!(map["inner_and_outer"], serde_json::json!(["yz", "xw"]));
     assert_eq!(map["stable"][0][0], Value::Null, "isoclinic");
     assert!(Pixmap::decode_png(&std::fs::read(&png).expect("the picture")).is_ok());
     assert_eq!(std::fs::read_to_string(&csv).expect("the table").lines().count(), 1 + 31 * 31);
@@ -252,27 +254,52 @@ fn maps_show_the_exact_boundary() {
             }
         }
     }
+    // In 5D the idle axis between x and v decides, and no threshold is left.
+    let idle = json_of(&["spin", "--moments", "5,4,3,2,1", "--map", "xv,yw", "--cells", "5", "--json"]);
+    assert_eq!(idle["threshold"], Value::Null);
     let ring = json_of(&with(&TOP, &["--map", "xz,yw", "--cells", "11", "--json"]));
     assert_eq!((&ring["threshold"], &ring["boundary"]), (&Value::Null, &serde_json::json!([])), "unstable throughout");
 }
 
+/// Exit status 2, nothing on standard output, and one line that gives the reason.
+fn check_refused(cases: Vec<(Vec<&str>, &str)>) {
+    for (arguments, reason) in cases {
+        let output = hyperbody(&arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        assert!(message.starts_with("error: ") && message.contains(reason), "{arguments:?}: {message}");
+        assert_eq!(message.lines().count(), 1, "{arguments:?}: {message}");
+    }
+}
+
 #[test]
-fn nonsense_is_refused_in_one_line_with_the_reason() {
-    let here = fresh("spin/nowhere/x.svg");
-    let no_folder = here.with_file_name("not-there").join("x.svg");
-    let spin = ["--spin", "xz=1"];
-    for (arguments, reason) in [
+fn bodies_that_cannot_be_are_refused_with_the_reason() {
+    check_refused(vec![
         (vec!["spin", "--moments", "4,-3,2,1", "--spin", "xz=1"], "axis y is -3"),
         (vec!["spin", "--moments", "4,nan,2,1", "--spin", "xz=1"], "finite"),
         (vec!["spin", "--moments", "4,three", "--spin", "xy=1"], "\"three\" is not a number"),
         (vec!["spin", "--moments", "1,1,1,1,1,1,1", "--spin", "xy=1"], "2 to 6"),
+        (vec!["spin", "--moments", "4,-inf,2,1", "--spin", "xz=1"], "axis y is -inf"),
         (vec!["spin", "--moments", "0,0,1", "--spin", "xy=1"], "at most one second moment may be zero"),
+        (vec!["spin", "--moments", "1,1,1", "--spin", "xy=1e200"], "1e200 rad/s"),
+        (vec!["spin", "--moments", "4", "--spin", "xy=1"], "2 to 6"),
         (vec!["spin", "--inertia", "xy=1,xz=1,yz=2.5", "--spin", "xy=1"], "triangle inequality"),
         (vec!["spin", "--inertia", "xy=1,xz=1", "--spin", "xy=1"], "one for each plane"),
+        (vec!["spin", "--inertia", "xy=1,xz=1,xw=1,yz=1,yw=1,zw=3", "--spin", "xy=1"], "second moments instead"),
         (vec!["spin", "--inertia", "xy=1,xz=1,xz=1", "--spin", "xy=1"], "twice"),
         (vec!["spin", "--shape", "not-there.off", "--spin", "xy=1"], "not-there.off"),
         (vec!["spin", "--shape", "tesserakt", "--spin", "xy=1"], "no regular polytope of that name"),
         (vec!["spin", "--shape", "cube", "--spin", "xy=1"], "--dimension"),
+    ]);
+}
+
+#[test]
+fn spins_runs_maps_and_files_that_make_no_sense_are_refused_with_the_reason() {
+    let here = fresh("spin/nowhere/x.svg");
+    let no_folder = here.with_file_name("not-there").join("x.svg");
+    let spin = ["--spin", "xz=1"];
+    check_refused(vec![
         (with(&TOP, &["--spin", "xv=1"]), "xy xz xw yz yw zw"),
         (with(&TOP, &["--spin", "xy"]), "plane=rate"),
         (with(&TOP, &["--spin", "xy=inf"]), "finite"),
@@ -280,13 +307,19 @@ fn nonsense_is_refused_in_one_line_with_the_reason() {
         (with(&TOP, &with(&spin, &["--dt", "-1"])), "step is -1"),
         (with(&TOP, &with(&spin, &["--dt", "1e-300"])), "at most"),
         (with(&TOP, &with(&spin, &["--disturb", "2"])), "from 0 to 1"),
+        (with(&TOP, &with(&spin, &["--seconds", "nan"])), "duration is NaN"),
+        (with(&TOP, &with(&spin, &["--seconds", "1e300"])), "1e300 s"),
         (with(&TOP, &with(&spin, &["--tolerance", "0"])), "--tolerance"),
+        (with(&TOP, &with(&spin, &["--compare", "rk4"])), "--compare: there is no method"),
+        (with(&TOP, &with(&spin, &["--dimension", "4"])), "--dimension"),
         (with(&TOP, &with(&spin, &["--method", "rk4"])), "splitting2"),
         (with(&TOP, &["--spin", "xz=1,xy=1,zw=1", "--method", "exact"]), "no closed form"),
         (with(&TOP, &with(&spin, &["--plot", "picture.gif"])), ".svg or .png"),
         (with(&TOP, &with(&spin, &["--csv", "table.txt"])), ".csv"),
         (with(&TOP, &with(&spin, &["--plot", text_of(&no_folder)])), "there is no folder"),
-        (with(&TOP, &["--map", "xy,xz"]), "different axes"),
+        (with(&TOP, &["--map", "xy,xz"]), "planes xy and xz must have four different axes"),
+        (with(&TOP, &["--map", "x,x", "--spin", "xw=1"]), "axes x and x"),
+        (with(&TOP, &["--map", "x,y", "--spin", "xw=0"]), "does not turn"),
         (with(&TOP, &["--map", "xy"]), "two planes"),
         (with(&TOP, &["--map", "xy,zw", "--spin", "xy=1"]), "leave --spin out"),
         (with(&TOP, &["--map", "y,z"]), "steady spin"),
@@ -295,14 +328,7 @@ fn nonsense_is_refused_in_one_line_with_the_reason() {
         (with(&TOP, &["--map", "xw,yz", "--range", "1"]), "FROM,TO"),
         (with(&TOP, &["--map", "y,z", "--spin", "xw=1", "--range", "-1,1"]), "not negative"),
         (vec!["spin", "--moments", "2,1", "--spin", "xy=1", "--plot", "x.svg", "--show", "path"], "two dimensions"),
-    ] {
-        let output = hyperbody(&arguments);
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-        assert!(output.stdout.is_empty(), "{arguments:?}");
-        assert!(message.starts_with("error: ") && message.contains(reason), "{arguments:?}: {message}");
-        assert_eq!(message.lines().count(), 1, "{arguments:?}: {message}");
-    }
+    ]);
     // What clap refuses it explains in lines of its own.
     for arguments in
         [with(&TOP, &[]), vec!["spin", "--spin", "xy=1"], with(&TOP, &["--map", "xw,yz", "--seconds", "3"])]
@@ -313,6 +339,18 @@ fn nonsense_is_refused_in_one_line_with_the_reason() {
     let long = with(&TOP, &["--spin", "xz=300,xy=200", "--method", "midpoint", "--dt", "1"]);
     let output = hyperbody(&long);
     assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// A folder that takes no files is found before the work begins.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_files_is_refused() {
+    for (option, path) in [("--plot", "/proc/picture.svg"), ("--csv", "/proc/table.csv")] {
+        let output = hyperbody(&with(&TOP, &["--spin", "xz=1", "--seconds", "1e9", option, path]));
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(path) && message.contains("cannot be written"), "{message}");
+    }
 }
 
 #[test]

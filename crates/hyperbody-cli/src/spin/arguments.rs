@@ -18,8 +18,8 @@ use clap::{ArgGroup, Args};
         the same run by three methods\n  \
     hyperbody spin --moments 4,3,2,1 --map xw,yz --plot map.png\n      \
         which double rotations are stable, measured, with the exact boundary\n\n\
-    Axes are called x y z w v u and are principal axes of the body; a plane is two of them. Positive spin in plane xy\n\
-    turns x towards y. Moments are second moments J_i, the integral of density times the square of coordinate i, so\n\
+    Axes are called x y z w v u and are principal axes of the body; a plane is two of them. Positive spin in plane xy \
+    turns x towards y. Moments are second moments J_i, the integral of density times the square of coordinate i, so \
     that plane xy has the moment of inertia J_x + J_y. docs/free-rotation.md tells the whole story."
 )]
 pub(crate) struct SpinArguments {
@@ -34,7 +34,7 @@ pub(crate) struct SpinArguments {
     #[arg(long, value_name = "SHAPE")]
     pub(super) shape: Option<String>,
     /// Dimension of a shape that does not tell, such as a ball or a cube
-    #[arg(long, value_name = "N", requires = "shape", value_parser = clap::value_parser!(u8).range(2..=6))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=6))]
     pub(super) dimension: Option<u8>,
     /// Spin at the start, plane by plane, in rad/s; planes that are not named do not turn
     #[arg(long, value_name = "xy=1,…", allow_hyphen_values = true, required_unless_present = "map")]

@@ -23,6 +23,12 @@ pub(super) struct Body {
 impl Body {
     /// The body that the arguments name.
     pub(super) fn from_arguments(arguments: &SpinArguments) -> Result<Self, Failure> {
+        if arguments.dimension.is_some() && arguments.shape.is_none() {
+            return Err(Failure::Input(
+                "--dimension: is for a --shape that does not tell its own; --moments and --inertia do by their number"
+                    .to_owned(),
+            ));
+        }
         if let Some(text) = &arguments.moments {
             from_moments(text)
         } else if let Some(text) = &arguments.inertia {
@@ -75,7 +81,7 @@ fn from_moments(text: &str) -> Result<Body, Failure> {
     let moments = numbers("--moments", text)?;
     if !DIMENSIONS.contains(&moments.len()) {
         return Err(Failure::Input(format!(
-            "--moments: {} numbers are the second moments of no body here; give 2 to 6, one for each axis",
+            "--moments: a body has one for each axis, so 2 to 6 of them, and not {}",
             moments.len()
         )));
     }

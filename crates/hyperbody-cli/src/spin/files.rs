@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 
-/// A file that can be written, as far as can be told without writing it.
+/// A file that can be written, as far as can be told beforehand.
 #[derive(Clone, Debug)]
 pub(super) struct Target {
     path: PathBuf,
@@ -16,7 +16,7 @@ impl Target {
     /// A target for one of the given kinds of files.
     ///
     /// # Errors
-    /// If the name ends otherwise, is a folder, or lies in a folder that is not there.
+    /// If the name ends otherwise, is a folder, or lies in a folder that is not there or takes no files.
     pub(super) fn new(option: &str, path: &Path, extensions: &[&str]) -> Result<Self, Failure> {
         let refuse = |what: String| Err(Failure::Input(format!("{option}: {}: {what}", path.display())));
         let extension =
@@ -32,7 +32,18 @@ impl Target {
         if !folder.is_dir() {
             return refuse(format!("there is no folder {}; make it first", folder.display()));
         }
-        Ok(Self { path: path.to_path_buf(), extension })
+        let target = Self { path: path.to_path_buf(), extension };
+        // Whether the folder takes files is seen by trying, before the work and not after it.
+        match fs::write(target.aside(), []).and_then(|()| fs::remove_file(target.aside())) {
+            Ok(()) => Ok(target),
+            Err(error) => refuse(format!("cannot be written: {error}")),
+        }
+    }
+
+    /// Where the file is written before it gets its name.
+    fn aside(&self) -> PathBuf {
+        let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        folder_of(&self.path).join(format!(".{name}.{}.part", std::process::id()))
     }
 
     /// What the name ends in, in lower case and without the dot.
@@ -42,8 +53,7 @@ impl Target {
 
     /// Writes the file aside and renames it, so that a reader never sees half of it, and a failure leaves the old one.
     pub(super) fn write(&self, content: &[u8]) -> Result<(), Failure> {
-        let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let aside = folder_of(&self.path).join(format!(".{name}.{}.part", std::process::id()));
+        let aside = self.aside();
         fs::write(&aside, content).and_then(|()| fs::rename(&aside, &self.path)).map_err(|error| {
             // The error of the write is the one to report.
             let _ = fs::remove_file(&aside);

@@ -24,6 +24,9 @@ use crate::progress::Progress;
 /// Growth below this is what rounding and slow drift make of stable rotations, 1/s per rad/s of the fastest turn.
 const MEASURABLE: f64 = 1e-3;
 
+/// How close to a threshold both its sides are looked at, relative to it.
+const NEXT_TO: f64 = 1e-9;
+
 #[derive(Serialize)]
 pub(super) struct MapReport {
     pub(super) dimension: usize,
@@ -45,6 +48,8 @@ pub(super) struct MapReport {
     /// The least |b/a| of a stable double rotation whose one plane lies within the other by moments, where a map over spins
     /// shows one.
     pub(super) threshold: Option<f64>,
+    /// The plane within and the plane around it, of that threshold.
+    pub(super) inner_and_outer: Option<[String; 2]>,
     /// Cells in which verdict and measured growth disagree, among those where either grows measurably.
     pub(super) disagreements: usize,
     pub(super) compute_seconds: f64,
@@ -108,6 +113,7 @@ impl DimensionVisitor for Map<'_> {
                 FreeTop::new(moments).map_or(Verdict::Open, |top| verdict(&top, &spin))
             }
         };
+        let threshold = threshold(&top, &varied);
         let side = |index: usize, range: &MapRange| side(&varied, index, range, self.body.unit);
         Ok(MapReport {
             dimension: N,
@@ -123,7 +129,8 @@ impl DimensionVisitor for Map<'_> {
             growth_rate: rows(&map, |cell| cell.growth_rate),
             measured_growth_rate: rows(&map, |cell| cell.measured_growth_rate),
             boundary: boundary(&map, &judge),
-            threshold: threshold(&top, &varied),
+            threshold: threshold.as_ref().map(|threshold| threshold.0),
+            inner_and_outer: threshold.map(|threshold| threshold.1.map(|(i, j)| planes::name(i.min(j), i.max(j)))),
             disagreements: disagreements(&map, &varied, &spin),
             compute_seconds,
         })
@@ -205,16 +212,26 @@ fn rows<T>(map: &StabilityMap, value: impl Fn(&MapCell) -> T) -> Vec<Vec<T>> {
     map.cells.chunks(map.x.count()).map(|row| row.iter().map(&value).collect()).collect()
 }
 
-/// The threshold of a map over spins, if one of its planes has the largest and the least of the four moments.
-fn threshold<const N: usize>(top: &FreeTop<N>, varied: &Varied) -> Option<f64> {
+/// The threshold of a map over spins, if one of its planes has the largest and the least of the four moments, and no idle
+/// axis decides instead; with the inner and the outer plane.
+fn threshold<const N: usize>(top: &FreeTop<N>, varied: &Varied) -> Option<(f64, [(usize, usize); 2])> {
     let Varied::Planes([first, second]) = *varied else { return None };
     let moment = |axis: usize| top.principal_moments()[axis];
     let ends = |(i, j): (usize, usize)| [moment(i).min(moment(j)), moment(i).max(moment(j))];
     let ([a, b], [c, d]) = (ends(first), ends(second));
-    let nested = (a < c && d < b) || (c < a && b < d);
+    let [inner, outer] = if a < c && d < b {
+        [second, first]
+    } else if c < a && b < d {
+        [first, second]
+    } else {
+        return None;
+    };
     let mut moments = [a, b, c, d];
     moments.sort_by(|a, b| b.total_cmp(a));
-    nested.then(|| inner_turn_threshold(moments))
+    let threshold = inner_turn_threshold(moments);
+    let double = |rate: f64| Bivector::plane(outer.0, outer.1, 1.0) + Bivector::plane(inner.0, inner.1, rate);
+    let stable = |part: f64| verdict(top, &double(part * threshold)) == Verdict::Stable;
+    (stable(1.0 + NEXT_TO) && !stable(1.0 - NEXT_TO)).then_some((threshold, [inner, outer]))
 }
 
 fn disagreements<const N: usize>(map: &StabilityMap, varied: &Varied, spin: &Bivector<N>) -> usize {
@@ -282,8 +299,8 @@ pub(super) fn as_text(report: &MapReport) -> String {
         ("unstable", format!("{}, growth at most {} /s", share(Some(false)), number(largest))),
         ("open", share(None)),
     ]);
-    if let Some(threshold) = report.threshold {
-        lines.push(("threshold", format!("the inner turn holds the outer one from |b/a| = {threshold:.10} on")));
+    if let (Some(threshold), Some([inner, outer])) = (report.threshold, &report.inner_and_outer) {
+        lines.push(("threshold", format!("{inner} holds {outer} from a ratio of their rates of {threshold:.10} on")));
     }
     lines.push(("disagreements", format!("{} cells between verdict and measured growth", report.disagreements)));
     lines.push(("computed in", format!("{:.2} s", report.compute_seconds)));

@@ -2,6 +2,8 @@
 
 use serde::{Serialize, Serializer};
 
+use crate::output::number;
+
 /// Values by name, in order; serialised as an object.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Named<T>(pub(super) Vec<(String, T)>);
@@ -21,6 +23,8 @@ pub(super) struct Report {
     pub(super) moments_unit: &'static str,
     /// At the start, in the body frame, rad/s.
     pub(super) spin: Named<f64>,
+    /// What every plane got that was to have no spin, rad/s.
+    pub(super) push: f64,
     pub(super) method: &'static str,
     pub(super) seconds: f64,
     pub(super) dt: f64,
@@ -64,7 +68,7 @@ pub(super) struct StabilityReport {
     pub(super) stable: Option<bool>,
     /// Of the fastest growing disturbance, 1/s.
     pub(super) growth_rate: f64,
-    /// From a run that was disturbed by a part in 10⁸, 1/s; null where there is no steady rotation to disturb.
+    /// From a run that was disturbed by a part in 10¹⁰, 1/s; null where there is no steady rotation to disturb.
     pub(super) measured_growth_rate: Option<f64>,
     pub(super) why: String,
     /// The steady rotation that was judged, rad/s.
@@ -167,4 +171,36 @@ pub(super) struct ClosedForm {
     pub(super) kind: &'static str,
     /// Of the attitude (its matrix) and the relative momentum at the end.
     pub(super) final_error: f64,
+}
+
+impl Report {
+    /// The spin at the start in words: "xz = 1 rad/s, 0.001 rad/s in every other plane". At most `most` planes are named.
+    pub(super) fn spin_text(&self, most: usize) -> String {
+        let turning: Vec<&(String, f64)> =
+            self.spin.0.iter().filter(|(_, rate)| *rate != 0.0 && *rate != self.push).collect();
+        let mut parts: Vec<String> =
+            turning.iter().take(most).map(|(plane, rate)| format!("{plane} = {}", number(*rate))).collect();
+        if turning.len() > most {
+            parts.push("…".to_owned());
+        }
+        if parts.is_empty() {
+            return "none".to_owned();
+        }
+        let push = if self.push == 0.0 {
+            String::new()
+        } else {
+            format!(", {} rad/s in every other plane", number(self.push))
+        };
+        format!("{} rad/s{push}", parts.join(", "))
+    }
+
+    /// The time step in words: "1/240 s" where that is what was meant.
+    pub(super) fn dt_text(&self) -> String {
+        let per_second = (1.0 / self.dt).round();
+        if self.dt < 0.1 && (per_second * self.dt - 1.0).abs() < 1e-9 {
+            format!("1/{per_second} s")
+        } else {
+            format!("{} s", number(self.dt))
+        }
+    }
 }

@@ -1,19 +1,21 @@
 //! A run for people.
 
+use hyperbody::dynamics::free_top::growth::DISTURBANCE;
+
 use super::report::{DriftReport, Report};
 use crate::output::{labelled, number, table};
+
+/// Characters of a sentence to a line, beside its label.
+const LINE_LENGTH: usize = 96;
 
 /// Flip times that are listed.
 const SHOWN_FLIPS: usize = 6;
 
 pub(super) fn as_text(report: &Report) -> String {
-    let spin = report.spin.0.iter().filter(|(_, rate)| *rate != 0.0);
-    let spin: Vec<String> = spin.map(|(plane, rate)| format!("{plane} {}", number(*rate))).collect();
-    let spin = if spin.is_empty() { "nothing".to_owned() } else { spin.join(", ") };
     let moments: Vec<String> = report.moments.iter().map(|&moment| number(moment)).collect();
     let mut parts = vec![
         format!("A free body of {} dimensions, J = ({}) {}", report.dimension, moments.join(", "), report.moments_unit),
-        labelled([("spin at the start", format!("{spin} rad/s")), ("followed for", followed(report))]),
+        labelled([("spin at the start", report.spin_text(usize::MAX)), ("followed for", followed(report))]),
         stability(report),
         equations(report),
         drift(report),
@@ -31,8 +33,8 @@ fn followed(report: &Report) -> String {
     } else {
         String::new()
     };
-    let (seconds, dt) = (number(report.seconds), number(report.dt));
-    format!("{seconds} s by {} in {} steps of {dt} s{divided}", report.method, report.steps)
+    let (seconds, dt) = (number(report.seconds), report.dt_text());
+    format!("{seconds} s by {} in {} steps of {dt}{divided}", report.method, report.steps)
 }
 
 fn stability(report: &Report) -> String {
@@ -46,14 +48,33 @@ fn stability(report: &Report) -> String {
         ),
         None => "open".to_owned(),
     };
-    let mut lines = vec![("steady rotation", verdict), ("why", found.why.clone())];
+    let mut lines = vec![("steady rotation", verdict)];
+    let labels = std::iter::once("why").chain(std::iter::repeat(""));
+    lines.extend(labels.zip(wrapped(&found.why, LINE_LENGTH)));
     if let Some(rate) = found.measured_growth_rate {
-        lines.push(("measured growth", format!("{} /s, in a run disturbed by 1e-8", number(rate))));
+        lines.push(("measured growth", format!("{} /s, in a run disturbed by {DISTURBANCE:e}", number(rate))));
     }
     if found.stable.is_some() && found.disturbance == 0.0 {
         lines.push(("", "the spin is exactly steady; --disturb 0.001 shows what a push does".to_owned()));
     }
     labelled(lines)
+}
+
+/// A sentence in lines of at most `width` characters, broken between words.
+fn wrapped(sentence: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in sentence.split(' ') {
+        let line = lines.len() - 1;
+        if lines[line].is_empty() {
+            lines[line].push_str(word);
+        } else if lines[line].chars().count() + 1 + word.chars().count() <= width {
+            lines[line].push(' ');
+            lines[line].push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
 }
 
 fn equations(report: &Report) -> String {
@@ -112,8 +133,11 @@ fn regularity(report: &Report) -> Vec<(&'static str, String)> {
     }
     if let Some(measured) = report.period.measured {
         let irregularity = flips.irregularity.unwrap_or(0.0);
-        let regular =
-            if irregularity < 1e-6 { "regular".to_owned() } else { format!("± {:.1} %", 100.0 * irregularity) };
+        let regular = match irregularity {
+            below if below < 1e-6 => "regular".to_owned(),
+            small if small < 1e-3 => format!("each interval within {small:.0e} of the mean"),
+            large => format!("each interval within {:.1} % of the mean", 100.0 * large),
+        };
         lines.push(("period", format!("{measured:.10} s between every other flip, {regular}")));
     }
     if let Some(exact) = report.period.exact {

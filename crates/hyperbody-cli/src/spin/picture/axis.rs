@@ -1,7 +1,9 @@
 //! Axes with round numbers on them.
 
+use std::f64::consts::LOG10_E;
 use std::ops::Range;
 
+use hyperbody::math::scalar;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 /// A linear axis, or the logarithm of one to base ten.
@@ -56,7 +58,8 @@ impl ValueFormatter<f64> for Axis {
 /// Round numbers between two ends, about `count` of them.
 pub(super) fn ticks(from: f64, to: f64, count: usize) -> Vec<f64> {
     let step = (to - from) / count as f64;
-    let power = 10.0_f64.powi(step.log10().floor() as i32);
+    // Rounding may choose the power below a whole one; ten times that is among the factors.
+    let power = scalar::pow(10.0, (scalar::ln(step) * LOG10_E).floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power).into_iter().find(|&s| s >= step).unwrap_or(step);
     let (first, last) = ((from / step - 1e-9).ceil() as i64, (to / step + 1e-9).floor() as i64);
     (first..=last).map(|index| index as f64 * step).collect()

@@ -1,14 +1,14 @@
 //! Pictures of stability maps: measured growth as colour, the exact boundary as a line.
 
 use plotters::chart::ChartBuilder;
-use plotters::element::Rectangle;
-use plotters::prelude::{Color, IntoFont};
+use plotters::prelude::IntoFont;
 use plotters::style::TextStyle;
 use plotters::style::text_anchor::HPos;
 
 use super::axis::{Axis, tick_text, ticks};
+use super::chart::MARGIN;
 use super::heat::Scale;
-use super::style::{GREY, INK, LABEL, LINE, SMALL, Stroke, THIN, TITLE, VERMILLION, line, units, write};
+use super::style::{GREY, INK, LABEL, LINE, SMALL, Stroke, THIN, TITLE, line, outline, shown, units, write};
 use super::{Drawn, UNITS, svg};
 use crate::failure::Failure;
 use crate::output::number;
@@ -35,8 +35,9 @@ pub(in crate::spin) fn draw(report: &MapReport) -> Result<String, Failure> {
         let mut chart = ChartBuilder::on(area)
             .margin_top(units(TOP))
             .margin_right(units(RIGHT))
+            .margin_left(units(MARGIN))
             .x_label_area_size(units(BOTTOM))
-            .y_label_area_size(units(LEFT))
+            .y_label_area_size(units(LEFT - MARGIN))
             .build_cartesian_2d(Axis::linear(x.0, x.1, 7), Axis::linear(y.0, y.1, 7))?;
         let (across, up) = chart.plotting_area().get_pixel_range();
         scale.draw_cells(area, rates, (across.start, across.end), (up.start, up.end))?;
@@ -52,7 +53,7 @@ pub(in crate::spin) fn draw(report: &MapReport) -> Result<String, Failure> {
             .set_all_tick_mark_size(units(7.0))
             .draw()?;
         let frame = [(across.start, up.start), (across.end, up.end)];
-        area.draw(&Rectangle::new(frame, line(GREY, THIN)))?;
+        outline(area, frame, GREY)?;
         let place = |point: [f64; 2]| chart.backend_coord(&(point[0], point[1]));
         if report.spin.is_none() {
             let reach = x.1.abs().max(x.0.abs()).max(y.0.abs()).max(y.1.abs());
@@ -123,12 +124,12 @@ fn draw_heading(area: &super::Area<'_>, report: &MapReport) -> Drawn {
             format!("free body in {} dimensions, J = ({moments}) {}", report.dimension, report.moments_unit),
         ),
         Some(spin) => {
-            let spin: Vec<String> = spin.0.iter().map(|(plane, rate)| format!("{plane} {}", number(*rate))).collect();
+            let spin: Vec<String> = spin.0.iter().map(|(plane, rate)| format!("{plane} = {}", shown(*rate))).collect();
             let others: Vec<String> = ["x", "y", "z", "w", "v", "u"]
                 .iter()
                 .zip(&report.moments)
                 .filter(|(axis, _)| **axis != report.x.varies && **axis != report.y.varies)
-                .map(|(axis, moment)| format!("J {axis} = {}", number(*moment)))
+                .map(|(axis, moment)| format!("J_{axis} = {}", number(*moment)))
                 .collect();
             (
                 format!("Stability of the rotation {} rad/s", spin.join(", ")),
@@ -151,7 +152,7 @@ fn draw_legend(area: &super::Area<'_>, report: &MapReport, scale: &Scale) -> Dra
     let (top, bottom) = (TOP + 50.0, TOP + 520.0);
     let bar = (units(left), units(left + 46.0));
     scale.draw_bar(area, bar, (units(top), units(bottom)))?;
-    area.draw(&Rectangle::new([(bar.0, units(top)), (bar.1, units(bottom))], line(GREY, THIN)))?;
+    outline(area, [(bar.0, units(top)), (bar.1, units(bottom))], GREY)?;
     for value in ticks(0.0, scale.top, 5) {
         let y = bottom - (bottom - top) * value / scale.top;
         let tick = [(units(left + 46.0), units(y)), (units(left + 54.0), units(y))];
@@ -159,9 +160,7 @@ fn draw_legend(area: &super::Area<'_>, report: &MapReport, scale: &Scale) -> Dra
         write(area, &tick_text(value), (left + 64.0, y), SMALL, INK, HPos::Left)?;
     }
     let mut y = bottom + 50.0;
-    let swatch = [(bar.0, units(y - 14.0)), (bar.1, units(y + 14.0))];
-    area.draw(&Rectangle::new(swatch, VERMILLION.mix(0.0).filled()))?;
-    area.draw(&Rectangle::new(swatch, line(GREY, THIN)))?;
+    outline(area, [(bar.0, units(y - 14.0)), (bar.1, units(y + 14.0))], GREY)?;
     write(area, "nothing grows: stable", (left + 64.0, y), SMALL, INK, HPos::Left)?;
     let stroke = |y: f64| [(bar.0, units(y)), (bar.1, units(y))];
     if !report.boundary.is_empty() {
@@ -170,15 +169,17 @@ fn draw_legend(area: &super::Area<'_>, report: &MapReport, scale: &Scale) -> Dra
         write(area, "exact boundary, from the", (left + 64.0, y), SMALL, INK, HPos::Left)?;
         y += 28.0;
         write(area, "eigenvalues in closed form", (left + 64.0, y), SMALL, INK, HPos::Left)?;
-        if let Some(threshold) = report.threshold {
+        if let (Some(threshold), Some([inner, outer])) = (report.threshold, &report.inner_and_outer) {
             y += 32.0;
-            write(area, &format!("|b/a| = {threshold:.7}"), (left + 64.0, y), SMALL, INK, HPos::Left)?;
+            let ratio = format!("|ω {inner}| = {threshold:.7} |ω {outer}|");
+            write(area, &ratio, (left + 64.0, y), SMALL, INK, HPos::Left)?;
         }
     }
     if report.spin.is_none() {
         y += 52.0;
         Stroke::dashed(GREY).draw(area, &stroke(y), THIN)?;
-        write(area, "isoclinic, |a| = |b|", (left + 64.0, y), SMALL, INK, HPos::Left)?;
+        let isoclinic = format!("isoclinic: |ω {}| = |ω {}|", report.x.varies, report.y.varies);
+        write(area, &isoclinic, (left + 64.0, y), SMALL, INK, HPos::Left)?;
     }
     Ok(())
 }

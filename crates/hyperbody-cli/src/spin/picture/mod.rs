@@ -66,7 +66,9 @@ fn svg(height: f64, paint: impl FnOnce(&Area<'_>) -> Drawn) -> Result<String, Fa
     // Shown in pixels, addressed in units.
     let (wide, narrow) =
         (format!("width=\"{}\" height=\"{}\"", size.0, size.1), format!("width=\"{WIDTH}\" height=\"{height}\""));
-    Ok(text.replacen(&wide, &narrow, 1))
+    let text = text.replacen(&wide, &narrow, 1);
+    // Without this, hairlines of white show between rectangles that touch.
+    Ok(text.replacen('>', "><style>rect{shape-rendering:crispEdges}</style>", 1))
 }
 
 /// Writes an SVG as what the target's name ends in.

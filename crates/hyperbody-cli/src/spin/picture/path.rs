@@ -3,9 +3,10 @@
 //! In 3D the momentum keeps its length: its tip moves on a sphere, along the curves in which surfaces of equal energy cut
 //! it; the separatrix through the poles of the middle plane is drawn with it. In 4D the momentum is the sum of a self-dual
 //! and an anti-self-dual part, two vectors of three numbers each, and both keep their lengths, since their squares are
-//! ½|M|² ± the Pfaffian: two spheres. From 5D on the path is shown in the three planes that take most part in it, inside a
-//! ball of radius |M|.
+//! ½|M|² ± the Pfaffian: two spheres. From 5D on the path is shown in the three planes that take most part in it, inside
+//! the smallest ball that holds it.
 
+use hyperbody::math::scalar;
 use plotters::element::{Circle, PathElement};
 use plotters::prelude::Color;
 use plotters::style::text_anchor::HPos;
@@ -105,8 +106,8 @@ fn spheres(report: &Report) -> Vec<Sphere> {
                 std::array::from_fn(|k| order.get(k).map_or("", |&index| momentum[index].0.as_str()));
             let points = combine(names, [""; 3], [0.0; 3], 1.0);
             let mut sphere = Sphere::new(String::new(), names.map(str::to_owned), points, false);
-            sphere.radius = report.conserved.angular_momentum_sq.sqrt();
-            sphere.title = format!("three of {} planes; |M| = {} {unit}", momentum.len(), number(sphere.radius));
+            let (reach, whole) = (number(sphere.radius), number(report.conserved.angular_momentum_sq.sqrt()));
+            sphere.title = format!("three of {} planes: radius {reach}, |M| = {whole} {unit}", momentum.len());
             vec![sphere]
         }
     }
@@ -129,7 +130,7 @@ fn separatrix(moments: &[f64]) -> Vec<Vec<Point>> {
         .map(|slope| {
             (0..=180)
                 .map(|k| {
-                    let (sin, cos) = (f64::from(k) * 2.0_f64.to_radians()).sin_cos();
+                    let (sin, cos) = scalar::sin_cos(f64::from(k) * 2.0_f64.to_radians());
                     let mut point = [0.0; 3];
                     point[middle] = cos;
                     point[low] = sin / length;
@@ -214,18 +215,18 @@ fn graticule() -> Vec<Vec<Point>> {
     let circle = |point: &dyn Fn(f64, f64) -> Point| -> Vec<Point> {
         (0..=120)
             .map(|k| {
-                let (sin, cos) = (f64::from(k) * 3.0_f64.to_radians()).sin_cos();
+                let (sin, cos) = scalar::sin_cos(f64::from(k) * 3.0_f64.to_radians());
                 point(sin, cos)
             })
             .collect()
     };
     let mut circles = Vec::new();
     for step in -2..=2 {
-        let (height, width) = (f64::from(step) * 30.0_f64.to_radians()).sin_cos();
+        let (height, width) = scalar::sin_cos(f64::from(step) * 30.0_f64.to_radians());
         circles.push(circle(&|sin, cos| [width * cos, width * sin, height]));
     }
     for step in 0..6 {
-        let (y, x) = (f64::from(step) * 30.0_f64.to_radians()).sin_cos();
+        let (y, x) = scalar::sin_cos(f64::from(step) * 30.0_f64.to_radians());
         circles.push(circle(&|sin, cos| [x * sin, y * sin, cos]));
     }
     circles
@@ -233,15 +234,15 @@ fn graticule() -> Vec<Vec<Point>> {
 
 /// Towards the viewer.
 fn depth([x, y, z]: Point) -> f64 {
-    let outwards = x * AZIMUTH.cos() + y * AZIMUTH.sin();
-    outwards * ELEVATION.cos() + z * ELEVATION.sin()
+    let outwards = x * scalar::cos(AZIMUTH) + y * scalar::sin(AZIMUTH);
+    outwards * scalar::cos(ELEVATION) + z * scalar::sin(ELEVATION)
 }
 
 /// Where a point of the unit sphere lies in the picture, in pixels.
 fn place(centre: (f64, f64), [x, y, z]: Point) -> (f64, f64) {
-    let right = -x * AZIMUTH.sin() + y * AZIMUTH.cos();
-    let outwards = x * AZIMUTH.cos() + y * AZIMUTH.sin();
-    let up = z * ELEVATION.cos() - outwards * ELEVATION.sin();
+    let right = -x * scalar::sin(AZIMUTH) + y * scalar::cos(AZIMUTH);
+    let outwards = x * scalar::cos(AZIMUTH) + y * scalar::sin(AZIMUTH);
+    let up = z * scalar::cos(ELEVATION) - outwards * scalar::sin(ELEVATION);
     (centre.0 + RADIUS * right, centre.1 - RADIUS * up)
 }
 

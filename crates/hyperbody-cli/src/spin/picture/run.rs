@@ -11,15 +11,15 @@ use crate::output::number;
 use crate::spin::report::{DriftSeries, Named, Report};
 
 /// Heights in pixels.
-const HEAD: f64 = 118.0;
+const HEAD: f64 = 146.0;
 const CHART: f64 = 620.0;
 const SPHERES: f64 = 800.0;
 
 /// Spin below this part of the largest one counts as none.
 const NO_SPIN: f64 = 1e-9;
 
-/// Characters of the verdict that fit into a line.
-const LINE_LENGTH: usize = 112;
+/// Planes whose spin at the start fits into a line.
+const NAMED_PLANES: usize = 5;
 
 enum Part {
     Chart(Chart),
@@ -66,23 +66,19 @@ pub(in crate::spin) fn draw(report: &Report, panels: &[Panel]) -> Result<String,
 
 fn draw_head(area: &Area<'_>, report: &Report) -> Drawn {
     let moments: Vec<String> = report.moments.iter().map(|&moment| number(moment)).collect();
-    let turning = report.spin.0.iter().filter(|(_, rate)| *rate != 0.0);
-    let spin: Vec<String> = turning.map(|(plane, rate)| format!("{plane} {}", number(*rate))).collect();
     let title =
         format!("Free body in {} dimensions, J = ({}) {}", report.dimension, moments.join(", "), report.moments_unit);
-    write(area, &title, (LEFT, 36.0), 1.1 * TITLE, INK, HPos::Left)?;
     let verdict = match report.stability.stable {
         Some(true) => "stable".to_owned(),
         Some(false) => format!("unstable, growth rate {} /s", number(report.stability.growth_rate)),
-        None => "open".to_owned(),
+        None => "no verdict from the linear problem".to_owned(),
     };
     let planes: Vec<&str> = report.stability.rotation.0.iter().map(|(plane, _)| plane.as_str()).collect();
+    let spin = report.spin_text(NAMED_PLANES).replace('-', "−");
+    write(area, &title, (LEFT, 36.0), 1.1 * TITLE, INK, HPos::Left)?;
+    write(area, &format!("spin at the start: {spin}"), (LEFT, 80.0), LABEL, GREY, HPos::Left)?;
     let judged = format!("steady rotation in {}: {verdict}", planes.join(" and "));
-    let mut line = format!("spin at the start {} rad/s;  {judged}", spin.join(", "));
-    if line.chars().count() > LINE_LENGTH {
-        line = judged;
-    }
-    write(area, &line, (LEFT, 80.0), LABEL, GREY, HPos::Left)
+    write(area, &judged, (LEFT, 114.0), LABEL, GREY, HPos::Left)
 }
 
 fn spins(report: &Report) -> Chart {
@@ -114,13 +110,8 @@ fn drift(report: &Report) -> Chart {
     series.push(("L in the world", &drift.angular_momentum));
     series.extend(drift.pfaffian.iter().map(|values| ("Pfaffian", values)));
     series.push(("Manakov’s", &drift.manakov));
-    let dt = format!("dt = {} s", number(report.dt));
-    drift_chart(
-        format!("Largest relative drift so far, {}", report.method),
-        report,
-        series.into_iter().map(|(name, values)| over_time(name.to_owned(), &report.times, values)).collect(),
-        vec![dt],
-    )
+    let series = series.into_iter().map(|(name, values)| over_time(name.to_owned(), &report.times, values));
+    drift_chart(format!("Largest relative drift so far, {}", report.method), report, series.collect())
 }
 
 /// Energy and momentum of all methods, in two charts.
@@ -132,15 +123,17 @@ fn compared_drift(report: &Report) -> impl Iterator<Item = Chart> {
         let mut series = vec![over_time(report.method.to_owned(), &report.times, pick(&report.drift))];
         let others = report.compared.iter();
         series.extend(others.map(|other| over_time(other.method.to_owned(), &other.times, pick(&other.drift))));
-        let notes = vec![format!("dt = {} s", number(report.dt))];
-        drift_chart(format!("Largest relative drift so far, {what}"), report, series, notes)
+        drift_chart(format!("Largest relative drift so far, {what}"), report, series)
     })
 }
 
-fn drift_chart(title: String, report: &Report, mut series: Vec<Series>, notes: Vec<String>) -> Chart {
-    for series in &mut series {
-        // At the start every drift is zero, which a logarithmic axis cannot show.
-        series.points.remove(0);
+fn drift_chart(title: String, report: &Report, series: Vec<Series>) -> Chart {
+    let (series, kept): (Vec<Series>, Vec<Series>) =
+        series.into_iter().partition(|series| series.points.iter().any(|point| point.1 != 0.0));
+    let mut notes = vec![format!("dt = {}", report.dt_text())];
+    if !kept.is_empty() {
+        notes.push("kept to the last bit:".to_owned());
+        notes.extend(kept.into_iter().map(|series| series.name));
     }
     Chart { title, y_label: "relative drift".to_owned(), end: report.seconds, logarithmic: true, series, notes }
 }

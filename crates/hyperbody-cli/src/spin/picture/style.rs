@@ -7,6 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{IntoFont, RGBColor, ShapeStyle, TextStyle};
 
 use super::{Area, Drawn, UNITS};
+use crate::output::number;
 
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 pub(super) const GREY: RGBColor = RGBColor(0x77, 0x77, 0x77);
@@ -47,6 +48,17 @@ impl Stroke {
         Self { colour: COLOURS[index % COLOURS.len()], dash }
     }
 
+    /// The same stroke drawn over `below` others along the same way: with gaps that let them show, in turns of 48 pixels.
+    pub(super) fn over(self, below: usize) -> Self {
+        let dash = match below {
+            0 => self.dash,
+            1 => Some((24.0, 24.0)),
+            2 => Some((12.0, 36.0)),
+            _ => Some((6.0, 42.0)),
+        };
+        Self { dash, ..self }
+    }
+
     pub(super) fn dashed(colour: RGBColor) -> Self {
         Self { colour, dash: Some((10.0, 8.0)) }
     }
@@ -72,9 +84,20 @@ impl Stroke {
     }
 }
 
+/// A number for people in a picture, with a minus sign as long as a plus sign.
+pub(super) fn shown(value: f64) -> String {
+    number(value).replace('-', "−")
+}
+
 /// A line style of the given width in pixels.
 pub(super) fn line(colour: RGBColor, width: f64) -> ShapeStyle {
     colour.stroke_width(units(width) as u32)
+}
+
+/// Draws the outline of a rectangle in units; the rectangles of plotters have no line width in SVG.
+pub(super) fn outline(area: &Area<'_>, [(x1, y1), (x2, y2)]: [(i32, i32); 2], colour: RGBColor) -> Drawn {
+    let corners = vec![(x1, y1), (x2, y1), (x2, y2), (x1, y2), (x1, y1)];
+    Ok(area.draw(&PathElement::new(corners, line(colour, THIN)))?)
 }
 
 /// Writes `words` with its left end, middle or right end at a point in pixels, centred in height.
