@@ -1,6 +1,7 @@
 //! The chores of this workspace in Rust, so that they run wherever the project builds: `cargo xtask --help`.
 
 mod bench;
+mod figures;
 mod hashes;
 mod process;
 mod scenes;
@@ -30,6 +31,8 @@ enum Chore {
     Bench(bench::BenchArguments),
     /// Writes the files that are generated from the built-in scenes
     Scenes(scenes::ScenesArguments),
+    /// Draws the figures of docs/free-rotation.md
+    Figures(figures::FiguresArguments),
 }
 
 fn main() -> ExitCode {
@@ -37,6 +40,7 @@ fn main() -> ExitCode {
         Chore::Test(arguments) => test::run(&arguments),
         Chore::Bench(arguments) => bench::run(&arguments),
         Chore::Scenes(arguments) => scenes::run(&arguments),
+        Chore::Figures(arguments) => figures::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
