@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::slice::SliceArguments;
 use crate::spin::SpinArguments;
 
 /// Most steps of a run: two days of simulated time at 60 steps a second, whose step times still fit into memory.
@@ -33,6 +34,8 @@ pub(crate) enum Command {
     Inspect(InspectArguments),
     /// Times scenes: median, 95th percentile and maximum per step
     Bench(BenchArguments),
+    /// Writes the 3D section of a shape of 4 to 6 dimensions as .stl, .obj, .off or .glb
+    Slice(SliceArguments),
     /// Lists the built-in scenes, or writes them as files
     Scenes(ScenesArguments),
     /// The free-rotation laboratory: how a free body tumbles, and whether its rotation is stable

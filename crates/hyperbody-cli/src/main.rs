@@ -6,11 +6,13 @@
 mod arguments;
 mod bench;
 mod failure;
+mod files;
 mod inspect;
 mod output;
 mod progress;
 mod run;
 mod scenes;
+mod slice;
 mod source;
 mod spin;
 mod step_times;
@@ -27,6 +29,7 @@ fn main() -> ExitCode {
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::Bench(arguments) => bench::bench(&arguments),
         Command::Scenes(arguments) => scenes::scenes(&arguments),
+        Command::Slice(arguments) => slice::slice(&arguments),
         Command::Spin(arguments) => spin::spin(&arguments),
     };
     match result {

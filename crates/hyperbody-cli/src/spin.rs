@@ -4,7 +4,6 @@ mod arguments;
 mod body;
 mod boundary;
 mod csv;
-mod files;
 mod map;
 mod picture;
 mod report;
@@ -16,9 +15,9 @@ use hyperbody_scene::visit_dimension;
 pub(crate) use arguments::SpinArguments;
 
 use crate::failure::Failure;
+use crate::files::Target;
 use crate::output::{as_json, print};
 use body::{Body, no_such_dimension};
-use files::Target;
 use map::Map;
 use trial::Trial;
 

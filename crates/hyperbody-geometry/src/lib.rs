@@ -13,6 +13,7 @@
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`volume`] | volumes of balls |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
+//! | [`surface`] | [`Surface`]: sections in three dimensions, as polygons and as STL, OBJ, OFF and GLB files |
 //! | [`tolerances`] | every limit and tolerance, with its reason |
 //! | [`error`] | [`GeometryError`] |
 
@@ -29,6 +30,7 @@ mod quadrature;
 pub mod regular;
 pub mod section;
 pub mod shape;
+pub mod surface;
 pub mod tolerances;
 pub mod volume;
 
@@ -39,5 +41,6 @@ pub use face_lattice::{Face, FaceLattice};
 pub use mass::MassProperties;
 pub use off::OffFile;
 pub use polytope::Polytope;
-pub use section::{SectionPolytope, SectionScratch, SliceFrame};
+pub use section::{SectionPolytope, SectionScratch, SliceFrame, Solid, SupportMap};
 pub use shape::{Piece, Shape};
+pub use surface::Surface;

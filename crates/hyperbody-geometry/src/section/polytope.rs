@@ -5,7 +5,7 @@
 //! since stable Rust has no `N − 1`): a representation with a dimension known at run time would do the same work behind
 //! bounds that cannot be checked, and everything that uses a section knows its dimension anyway.
 
-use hyperbody_math::Vector;
+use hyperbody_math::{Pose, Vector};
 
 use crate::mass::MassProperties;
 use crate::tolerances::SECTION_TOLERANCE;
@@ -121,6 +121,17 @@ impl<const N: usize> SectionPolytope<N> {
         tables
     }
 
+    /// The same polytope in an outer frame.
+    #[must_use]
+    pub fn placed(mut self, outer_from_body: &Pose<N>) -> Self {
+        for vertex in &mut self.vertices {
+            *vertex = outer_from_body.transform_point(*vertex);
+        }
+        self.centre = outer_from_body.transform_point(self.centre);
+        self.tolerance = self.tolerance.max(SECTION_TOLERANCE * (self.radius + self.centre.norm()));
+        self
+    }
+
     /// Forgets everything but the memory.
     pub(super) fn clear(&mut self) {
         self.vertices.clear();
@@ -164,6 +175,35 @@ impl<const N: usize> SectionPolytope<N> {
     #[must_use]
     pub fn facet_sources(&self) -> &[u32] {
         &self.facet_sources
+    }
+
+    /// Middle of a ball that holds the polytope; inside of it.
+    #[must_use]
+    pub fn centre(&self) -> Vector<N> {
+        self.centre
+    }
+
+    /// The same polytope with all facets those of one source, as the facets of a curved surface are.
+    #[must_use]
+    pub fn with_source(mut self, source: u32) -> Self {
+        self.facet_sources.fill(source);
+        self
+    }
+
+    /// Calls `f` with the corners of a polygon, a face of rank 2, in order around it.
+    pub(crate) fn for_each_corner(&self, polygon: usize, mut f: impl FnMut(u32)) {
+        let (Some(edges), Some(polygons)) = (self.ranks.first(), self.ranks.get(1)) else { return };
+        let sides = polygons.get(polygon);
+        let Some(&first) = sides.first() else { return };
+        let (mut side, mut corner) = (first, edges.get(first as usize)[0]);
+        for _ in 0..sides.len() {
+            f(corner);
+            let ends = edges.get(side as usize);
+            corner = if ends[0] == corner { ends[1] } else { ends[0] };
+            let holds = |other: u32| other != side && edges.get(other as usize).contains(&corner);
+            let Some(&next) = sides.iter().find(|&&other| holds(other)) else { return };
+            side = next;
+        }
     }
 
     /// Simplices that fill the polytope, each as `N + 1` vertices: pyramids over the simplices of the facets that do not

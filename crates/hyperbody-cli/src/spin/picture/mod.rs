@@ -25,8 +25,8 @@ use resvg::usvg::{Options, Tree};
 pub(super) use map::draw as draw_map;
 pub(super) use run::draw as draw_run;
 
-use super::files::Target;
 use crate::failure::Failure;
+use crate::files::Target;
 
 /// What a picture of a run can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

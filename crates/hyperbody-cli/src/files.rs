@@ -1,4 +1,4 @@
-//! Files that the command writes: checked before the work, written aside and renamed after it.
+//! Files that commands write: checked before the work, written aside and renamed after it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use crate::failure::Failure;
 
 /// A file that can be written, as far as can be told beforehand.
 #[derive(Clone, Debug)]
-pub(super) struct Target {
+pub(crate) struct Target {
     path: PathBuf,
     extension: String,
 }
@@ -17,7 +17,7 @@ impl Target {
     ///
     /// # Errors
     /// If the name ends otherwise, is a folder, or lies in a folder that is not there or takes no files.
-    pub(super) fn new(option: &str, path: &Path, extensions: &[&str]) -> Result<Self, Failure> {
+    pub(crate) fn new(option: &str, path: &Path, extensions: &[&str]) -> Result<Self, Failure> {
         let refuse = |what: String| Err(Failure::Input(format!("{option}: {}: {what}", path.display())));
         let extension =
             path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
@@ -47,12 +47,12 @@ impl Target {
     }
 
     /// What the name ends in, in lower case and without the dot.
-    pub(super) fn extension(&self) -> &str {
+    pub(crate) fn extension(&self) -> &str {
         &self.extension
     }
 
     /// Writes the file aside and renames it, so that a reader never sees half of it, and a failure leaves the old one.
-    pub(super) fn write(&self, content: &[u8]) -> Result<(), Failure> {
+    pub(crate) fn write(&self, content: &[u8]) -> Result<(), Failure> {
         let aside = self.aside();
         fs::write(&aside, content).and_then(|()| fs::rename(&aside, &self.path)).map_err(|error| {
             // The error of the write is the one to report.

@@ -1,0 +1,225 @@
+//! `hyperbody slice`: the three-dimensional section of a shape, as a file for other programs.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use hyperbody::geometry::{SectionPolytope, SliceFrame, Solid, Surface};
+use hyperbody::math::{Dim, EvenAlgebra, Vector};
+use hyperbody_scene::ShapeFile;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::files::Target;
+use crate::output::{labelled, number, print, print_json};
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    hyperbody slice 24-cell.off -o middle.stl                              across w, through the origin\n  \
+    hyperbody slice 24-cell.off -o corner.glb --normal 1,1,1,1 --offset 0.5\n  \
+    hyperbody slice duocylinder.json -o round.obj --tolerance 0.0001       a curved shape, to a tenth of a millimetre\n\n\
+    The axes of the section are those of the shape after the shortest turn that takes its last axis to the normal: across \
+    w, they are x, y and z. Faces keep the number of the cell that they were cut from: as groups in .obj and as colours in \
+    .glb.")]
+pub(crate) struct SliceArguments {
+    /// The shape: an OFF file, or the shape of a scene as .json
+    pub(crate) file: PathBuf,
+    /// The file to write: .stl, .obj, .off or .glb
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    /// Normal of the hyperplane, of any length, as numbers with commas between them; once for each dimension above three
+    /// [default: the last axes]
+    #[arg(long, value_name = "X,Y,…", value_parser = numbers, allow_hyphen_values = true)]
+    pub(crate) normal: Vec<Numbers>,
+    /// Where the hyperplane is: all points p with normal·p = offset; once for each normal [default: 0]
+    #[arg(long, value_name = "C", allow_hyphen_values = true)]
+    pub(crate) offset: Vec<f64>,
+    /// For curved shapes, how far the shape may reach beyond the facets of the file, in metres [default: a thousandth of the
+    /// size of the shape]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
+    /// Dimension of a shape that does not tell, such as a ball
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=6))]
+    pub(crate) dimension: Option<u8>,
+    /// Print one JSON object and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// A list of numbers given as one argument.
+#[derive(Clone, Debug)]
+pub(crate) struct Numbers(Vec<f64>);
+
+fn numbers(text: &str) -> Result<Numbers, String> {
+    let parse = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("\"{part}\" is not a number"));
+    text.split(',').map(parse).collect::<Result<_, _>>().map(Numbers)
+}
+
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    vertices: usize,
+    faces: usize,
+    /// Of the section, in m³; parts of a compound add up.
+    volume: f64,
+}
+
+pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
+    let target = Target::new("--output", &arguments.output, &["stl", "obj", "off", "glb"])?;
+    let file = load(&arguments.file, arguments.dimension)?;
+    let planes = hyperplanes(arguments, file.dimension)?;
+    let (surface, volume) = match file.dimension {
+        4 => surface(down::<4, 3>(solids(&file)?, planes)?.0, arguments)?,
+        5 => {
+            let (solids, planes) = down::<5, 4>(solids(&file)?, planes)?;
+            surface(down::<4, 3>(solids, planes)?.0, arguments)?
+        }
+        _ => {
+            let (solids, planes) = down::<6, 5>(solids(&file)?, planes)?;
+            let (solids, planes) = down::<5, 4>(solids, planes)?;
+            surface(down::<4, 3>(solids, planes)?.0, arguments)?
+        }
+    };
+    let content = match target.extension() {
+        "stl" => surface.to_stl(),
+        "glb" => surface.to_glb(),
+        "obj" => surface.to_obj().into_bytes(),
+        _ => surface.to_off().into_bytes(),
+    };
+    target.write(&content)?;
+    let report = Report {
+        file: arguments.output.display().to_string(),
+        vertices: surface.vertices().len(),
+        faces: surface.polygon_count(),
+        volume,
+    };
+    if arguments.json {
+        return print_json(&report);
+    }
+    let lines = [
+        ("vertices", report.vertices.to_string()),
+        ("faces", report.faces.to_string()),
+        ("volume", format!("{} m³", number(volume))),
+    ];
+    print(format!("{}\n\n{}", report.file, labelled(lines)))
+}
+
+fn load(path: &Path, dimension: Option<u8>) -> Result<ShapeFile, Failure> {
+    if path.is_file() && ShapeFile::holds_scene(path)? {
+        let message = "holds a scene; name a shape: an OFF file, or what stands under \"shape\" in a scene as .json";
+        return Err(Failure::Input(format!("{}: {message}", path.display())));
+    }
+    let file = ShapeFile::load(path, dimension.map(usize::from))?;
+    if !(4..=6).contains(&file.dimension) {
+        let message = format!("is a shape of {} dimensions; sections in 3D are those of 4 to 6", file.dimension);
+        return Err(Failure::Input(format!("{}: {message}", path.display())));
+    }
+    Ok(file)
+}
+
+/// A hyperplane in coordinates of as many dimensions as there are still.
+type Plane = (Vec<f64>, f64);
+
+/// One hyperplane for each dimension above three.
+fn hyperplanes(arguments: &SliceArguments, dimension: usize) -> Result<Vec<Plane>, Failure> {
+    let wanted = dimension - 3;
+    let refuse = |message: String| Err(Failure::Input(message));
+    let mut normals: Vec<Vec<f64>> = arguments.normal.iter().map(|normal| normal.0.clone()).collect();
+    if normals.is_empty() {
+        let axis = |k: usize| (0..dimension).map(|i| if i == dimension - 1 - k { 1.0 } else { 0.0 }).collect();
+        normals = (0..wanted).map(axis).collect();
+    }
+    let mut offsets = arguments.offset.clone();
+    if offsets.is_empty() {
+        offsets = vec![0.0; wanted];
+    }
+    for (what, count) in [("--normal", normals.len()), ("--offset", offsets.len())] {
+        if count != wanted {
+            return refuse(format!(
+                "{what} is given {count} times; from {dimension} dimensions down to 3 it has to be {wanted}"
+            ));
+        }
+    }
+    if let Some(normal) = normals.iter().find(|normal| normal.len() != dimension) {
+        return refuse(format!(
+            "--normal has {} numbers; in {dimension} dimensions it needs {dimension}",
+            normal.len()
+        ));
+    }
+    Ok(normals.into_iter().zip(offsets).collect())
+}
+
+/// Pieces with the first of the numbers that their faces have.
+type Pieces<const N: usize> = Vec<(u32, Solid<N>)>;
+
+fn solids<const N: usize>(file: &ShapeFile) -> Result<Pieces<N>, Failure>
+where
+    Dim<N>: EvenAlgebra,
+{
+    let mut first_source = 0;
+    let numbered = file.build::<N>()?.solids().into_iter().map(|solid| {
+        let first = first_source;
+        first_source += if let Solid::Polytope(polytope) = &solid { polytope.facet_sources().len() as u32 } else { 1 };
+        (first, solid)
+    });
+    Ok(numbered.collect())
+}
+
+/// Cuts with the first hyperplane; the others follow in its coordinates.
+fn down<const N: usize, const M: usize>(
+    solids: Pieces<N>,
+    planes: Vec<Plane>,
+) -> Result<(Pieces<M>, Vec<Plane>), Failure> {
+    let vector = |numbers: &[f64]| Vector::<N>::from_slice(numbers).unwrap_or(Vector::ZERO);
+    let Some(((normal, offset), rest)) = planes.split_first() else {
+        return Err(Failure::Work("a hyperplane is missing".to_owned()));
+    };
+    let normal = vector(normal);
+    let frame = SliceFrame::from_normal(normal, *offset).map_err(|error| Failure::Input(error.to_string()))?;
+    let mut lower = Vec::with_capacity(rest.len());
+    for (other, other_offset) in rest {
+        let other = vector(other);
+        let within = frame.direction_to_slice::<M>(other);
+        if within.norm() < 1e-9 * other.norm() {
+            return Err(Failure::Input("two of the normals are parallel: they leave no section in 3D".to_owned()));
+        }
+        let offset = other_offset - other.dot(frame.space_from_slice().translation);
+        lower.push((within.iter().collect(), offset));
+    }
+    let cut = |(first, solid): &(u32, Solid<N>)| Some((*first, solid.section::<M>(&frame)?));
+    let left: Pieces<M> = solids.iter().filter_map(cut).collect();
+    if left.is_empty() {
+        return Err(Failure::Input(missed(&solids, normal, *offset)));
+    }
+    Ok((left, lower))
+}
+
+/// Says where the hyperplane would have met something.
+fn missed<const N: usize>(solids: &Pieces<N>, normal: Vector<N>, offset: f64) -> String {
+    let reach = |direction: Vector<N>| {
+        let reaches = solids.iter().map(|(_, solid)| solid.reach(direction));
+        reaches.fold(f64::NEG_INFINITY, f64::max)
+    };
+    format!(
+        "the hyperplane at offset {offset} leaves nothing of the shape, which lies between {} and {} along this normal",
+        number(-reach(-normal)),
+        number(reach(normal))
+    )
+}
+
+/// The surface of all pieces, and their volume.
+fn surface(solids: Pieces<3>, arguments: &SliceArguments) -> Result<(Surface, f64), Failure> {
+    let axes = (0..3).flat_map(|axis| [Vector::unit(axis), -Vector::unit(axis)]);
+    let reaches = axes.flat_map(|axis| solids.iter().map(move |(_, solid)| solid.reach(axis).abs()));
+    let size = reaches.fold(0.0, f64::max);
+    let tolerance = arguments.tolerance.unwrap_or(1e-3 * size);
+    let refuse = |error: hyperbody::prelude::GeometryError| Failure::Input(error.to_string());
+    let mut surface = Surface::new();
+    let mut volume = 0.0;
+    for (first_source, solid) in solids {
+        let Some(polytope) = solid.to_polytope(tolerance).map_err(refuse)? else { continue };
+        volume += SectionPolytope::mass_properties(&polytope).mass;
+        let exact = matches!(solid, Solid::Polytope(_));
+        surface.add_polytope(&if exact { polytope } else { polytope.with_source(0) }, first_source);
+    }
+    Ok((surface, volume))
+}

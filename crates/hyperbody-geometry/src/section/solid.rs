@@ -1,0 +1,164 @@
+//! What a shape is to a hyperplane, and what the hyperplane leaves of it: the same type, so that cuts follow on cuts.
+
+use std::sync::Arc;
+
+use hyperbody_math::{Pose, Vector};
+
+use super::support::{InHyperplane, SupportOfSection};
+use super::{SectionPolytope, SliceFrame, SupportMap, approximate};
+use crate::error::GeometryErrorKind::Unsupported;
+use crate::shape::Piece;
+use crate::{Convex, Core, GeometryError, Polytope, Result, Shape};
+
+/// One convex piece of a shape, or of a section of it.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Solid<const N: usize> {
+    /// All points at most `radius` from the centre.
+    Ball {
+        /// Its centre.
+        centre: Vector<N>,
+        /// > 0, in metres.
+        radius: f64,
+    },
+    /// All points with normal·p ≤ offset. The normal is a unit vector.
+    HalfSpace {
+        /// Outward.
+        normal: Vector<N>,
+        /// Distance of the boundary from the origin along the normal.
+        offset: f64,
+    },
+    /// A polytope with all its faces.
+    Polytope(SectionPolytope<N>),
+    /// A convex body with curved parts.
+    Curved(Arc<dyn SupportMap<N>>),
+}
+
+/// A convex body at another place.
+#[derive(Clone, Debug)]
+struct Placed<const N: usize> {
+    convex: Convex<N>,
+    pose: Pose<N>,
+}
+
+impl<const N: usize> SupportMap<N> for Placed<N> {
+    fn support(&self, direction: Vector<N>) -> Vector<N> {
+        self.pose.transform_point(self.convex.support(self.pose.rotation.inverse_rotate(direction)))
+    }
+}
+
+impl<const N: usize> Shape<N> {
+    /// The convex pieces of the shape, in its frame, ready to be cut. Worth keeping from one cut to the next: for polytopes
+    /// all faces are found here.
+    #[must_use]
+    pub fn solids(&self) -> Vec<Solid<N>> {
+        self.pieces().into_iter().map(|(pose, piece)| Solid::from_piece(piece, pose)).collect()
+    }
+}
+
+impl<const N: usize> Solid<N> {
+    fn from_piece(piece: Piece<N>, pose: Pose<N>) -> Self {
+        let convex = match piece {
+            Piece::HalfSpace { normal, offset } => {
+                let normal = pose.rotation.rotate(normal);
+                return Self::HalfSpace { normal, offset: offset + normal.dot(pose.translation) };
+            }
+            Piece::Convex(convex) => convex,
+        };
+        let polytope = match &convex.core {
+            Core::Point => return Self::Ball { centre: pose.translation, radius: convex.radius },
+            Core::Box { half_extents } if convex.radius == 0.0 => {
+                let corner = |bits: u32| {
+                    Vector::from_fn(|i| if bits >> i & 1 == 0 { -half_extents[i] } else { half_extents[i] })
+                };
+                let corners: Vec<Vector<N>> = (0..1 << N).map(corner).collect();
+                Polytope::from_points(&corners).ok().map(Arc::new)
+            }
+            Core::Polytope(polytope) if convex.radius == 0.0 => Some(Arc::clone(polytope)),
+            _ => None,
+        };
+        match polytope {
+            Some(polytope) => Self::Polytope(SectionPolytope::from_polytope(&polytope).placed(&pose)),
+            // Boxes thinner than a hull can be come here too.
+            None => Self::Curved(Arc::new(Placed { convex, pose })),
+        }
+    }
+
+    /// The intersection with the hyperplane of `frame`, in its coordinates: a ball of a ball, a half-space of a half-space,
+    /// a polytope with its faces of a polytope. `M` has to be `N − 1`. `None` if nothing is left, or if the hyperplane only
+    /// touches a curved body.
+    ///
+    /// A hyperplane within a half-space is a half-space without end, and gives one that is [`MAX_LENGTH`] deep.
+    ///
+    /// [`MAX_LENGTH`]: crate::tolerances::MAX_LENGTH
+    #[must_use]
+    pub fn section<const M: usize>(&self, frame: &SliceFrame<N>) -> Option<Solid<M>> {
+        match self {
+            Self::Ball { centre, radius } => {
+                let height = frame.height(*centre);
+                let left = (radius - height) * (radius + height);
+                (left > 0.0).then(|| Solid::Ball { centre: frame.to_slice(*centre), radius: left.sqrt() })
+            }
+            Self::HalfSpace { normal, offset } => {
+                let within = frame.direction_to_slice::<M>(*normal);
+                let rest = offset - normal.dot(frame.space_from_slice().translation);
+                let length = within.norm();
+                if length > 1e-12 {
+                    return Some(Solid::HalfSpace { normal: within / length, offset: rest / length });
+                }
+                let all = Solid::HalfSpace { normal: Vector::unit(0), offset: crate::tolerances::MAX_LENGTH };
+                (rest >= 0.0).then_some(all)
+            }
+            Self::Polytope(polytope) => {
+                let section = polytope.section::<M>(frame);
+                (!section.is_empty()).then_some(Solid::Polytope(section))
+            }
+            Self::Curved(body) => {
+                let section = SupportOfSection::new(body, frame)?;
+                Some(Solid::Curved(Arc::new(InHyperplane::<N, M>(section))))
+            }
+        }
+    }
+
+    /// How far the piece reaches in a direction: the largest direction·p. Infinite for half-spaces.
+    #[must_use]
+    pub fn reach(&self, direction: Vector<N>) -> f64 {
+        match self {
+            Self::Ball { centre, radius } => centre.dot(direction) + radius * direction.norm(),
+            Self::HalfSpace { .. } => f64::INFINITY,
+            Self::Polytope(polytope) => {
+                polytope.vertices().iter().map(|v| v.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
+            }
+            Self::Curved(body) => body.support(direction).dot(direction),
+        }
+    }
+
+    /// The piece as a polytope: exactly that of polytopes, and for curved pieces one whose vertices lie on the boundary and
+    /// whose facets no point of the piece passes by more than `tolerance`, in metres. `None` if a curved piece is thinner
+    /// than a hull can be.
+    ///
+    /// # Errors
+    /// `Unsupported` for a half-space, which has no end; `BadNumber` if the tolerance is not positive, or so small that the
+    /// polytope would have more than [`MAX_APPROXIMATION_VERTICES`](super::MAX_APPROXIMATION_VERTICES) vertices.
+    pub fn to_polytope(&self, tolerance: f64) -> Result<Option<SectionPolytope<N>>> {
+        let approximation = match self {
+            Self::Polytope(polytope) => return Ok(Some(polytope.clone())),
+            Self::HalfSpace { .. } => {
+                return Err(GeometryError::new(
+                    Unsupported,
+                    "a half-space has no end: it cannot be written as a polytope",
+                ));
+            }
+            Self::Ball { centre, radius } => {
+                let convex = Convex { core: Core::Point, radius: *radius };
+                approximate(&Placed { convex, pose: Pose::from_translation(*centre) }, tolerance)
+            }
+            Self::Curved(body) => approximate(body.as_ref(), tolerance),
+        };
+        match approximation {
+            Ok(polytope) => Ok(Some(SectionPolytope::from_polytope(&polytope))),
+            Err(error) if error.kind() == crate::GeometryErrorKind::Flat => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+}
