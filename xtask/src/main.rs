@@ -3,6 +3,7 @@
 mod bench;
 mod figures;
 mod hashes;
+mod pictures;
 mod process;
 mod scenes;
 mod test;
@@ -29,6 +30,8 @@ enum Chore {
     Test(test::TestArguments),
     /// Times the built-in scenes (or others) and saves the figures under target/bench, with machine and commit
     Bench(bench::BenchArguments),
+    /// Draws the pictures of the README and of the gallery page from the built-in scenes
+    Pictures(pictures::PicturesArguments),
     /// Writes the files that are generated from the built-in scenes
     Scenes(scenes::ScenesArguments),
     /// Draws the figures of docs/free-rotation.md
@@ -39,6 +42,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().chore {
         Chore::Test(arguments) => test::run(&arguments),
         Chore::Bench(arguments) => bench::run(&arguments),
+        Chore::Pictures(arguments) => pictures::run(&arguments),
         Chore::Scenes(arguments) => scenes::run(&arguments),
         Chore::Figures(arguments) => figures::run(&arguments),
     };

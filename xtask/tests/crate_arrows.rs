@@ -1,19 +1,20 @@
 //! Arrows between the crates only point up the list of ARCHITECTURE.md:
-//! math ← geometry ← collision ← dynamics ← hyperbody ← scene ← cli, render, wasm.
+//! math ← geometry ← collision ← dynamics ← hyperbody ← scene ← render ← cli, wasm.
 
 use std::process::Command;
 
 use serde_json::Value;
 
 /// From the lowest tier to the highest; a crate may use crates of lower tiers only.
-const TIERS: [&[&str]; 7] = [
+const TIERS: [&[&str]; 8] = [
     &["hyperbody-math"],
     &["hyperbody-geometry"],
     &["hyperbody-collision"],
     &["hyperbody-dynamics"],
     &["hyperbody"],
     &["hyperbody-scene"],
-    &["hyperbody-cli", "hyperbody-render", "hyperbody-wasm"],
+    &["hyperbody-render"],
+    &["hyperbody-cli", "hyperbody-wasm"],
 ];
 
 /// What each crate of the workspace depends on inside the workspace: (crate, dependency, whether for tests only).

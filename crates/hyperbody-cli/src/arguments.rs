@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::render::arguments::RenderArguments;
 use crate::slice::SliceArguments;
 use crate::spin::SpinArguments;
 
@@ -18,6 +19,7 @@ pub(crate) const MAX_STEPS: u32 = 10_000_000;
     after_help = "Start with:\n  \
         hyperbody scenes                     what there is to see\n  \
         hyperbody run stack4d                ten tesseracts on each other, for ten seconds\n  \
+        hyperbody render dice4d -o dice.png  a picture of it\n  \
         hyperbody scenes --write my-scenes   the built-in scenes as files, to change and run\n\n\
         `hyperbody help COMMAND` explains a command. SCENE is always a file or the name of a built-in scene."
 )]
@@ -30,6 +32,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Simulates a scene and says where everything ended up
     Run(RunArguments),
+    /// Draws a scene: a slice of it at a moment
+    Render(Box<RenderArguments>),
     /// Says what is in a scene or a shape: mass properties, face counts
     Inspect(InspectArguments),
     /// Times scenes: median, 95th percentile and maximum per step
@@ -125,7 +129,7 @@ pub(crate) struct ScenesArguments {
 }
 
 /// Seconds: finite, not negative.
-fn seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
         Ok(value) => Err(format!("{value} is not a finite number of seconds, 0 or more")),

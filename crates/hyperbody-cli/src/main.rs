@@ -10,6 +10,7 @@ mod files;
 mod inspect;
 mod output;
 mod progress;
+mod render;
 mod run;
 mod scenes;
 mod slice;
@@ -26,6 +27,7 @@ use arguments::{Arguments, Command};
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::Render(arguments) => render::render(&arguments),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::Bench(arguments) => bench::bench(&arguments),
         Command::Scenes(arguments) => scenes::scenes(&arguments),

@@ -1,0 +1,38 @@
+//! Pictures of worlds of two to six dimensions, without a window or a graphics driver.
+//!
+//! A picture shows a three-dimensional slice of the world, cut through every body exactly: each ray of the picture lies in
+//! the slice and is cast against the solids themselves by the engine's own ray query. Sun, sky and soft shadows are rays
+//! as well. Work is shared among threads by rows, and the picture is the same bytes for every number of them.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`slice`] | [`Slice`]: which three directions of the world are seen |
+//! | [`camera`] | [`Camera`]: where the eye is in the slice |
+//! | [`picture`] | [`render`], [`Settings`] |
+//! | [`image`] | [`Image`]: the finished picture, and PNG |
+//! | `stage`, `solid` | the world cut by the slice: sections, ghosts, planes |
+//! | `surface` | what a ray sees: colours of cells, edges, floor, glass |
+//! | `light`, `occlusion`, `frame` | sun and sky, how much of them arrives, and the picture |
+//! | `colour` | palette and tone mapping |
+//! | `overlay`, `text` | the strip of hidden directions, and captions |
+
+pub mod camera;
+mod colour;
+pub mod error;
+mod frame;
+pub mod image;
+mod light;
+mod occlusion;
+mod overlay;
+pub mod picture;
+pub mod slice;
+mod solid;
+mod stage;
+mod surface;
+mod text;
+
+pub use camera::Camera;
+pub use error::RenderError;
+pub use image::Image;
+pub use picture::{Settings, frame_bodies, render};
+pub use slice::Slice;

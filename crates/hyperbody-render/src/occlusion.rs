@@ -1,0 +1,100 @@
+//! How much sun and sky reach a point: a few rays a pixel, spread so that every block of 4 × 4 pixels holds the whole
+//! pattern, and then a mean over four such blocks that stays on the same surface (interleaved sampling; A. Keller and
+//! W. Heidrich, 2001). The pattern is fixed: the same picture every time.
+
+use hyperbody::collision::RayStack;
+use hyperbody::collision::ray::Ray;
+use hyperbody::math::Vector;
+
+use crate::light::{Light, hemisphere};
+use crate::stage::Stage;
+use crate::surface::{SKY, Seen};
+
+/// Shares of the sun and of the sky that reach a point, in [0, 1].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Reach {
+    pub(crate) sun: f32,
+    pub(crate) sky: f32,
+}
+
+/// Width and height of a block of the pattern.
+const BLOCK: usize = 4;
+
+/// The place of each pixel of a block in the pattern; neighbours far apart (B. E. Bayer, 1973).
+const ORDER: [[u32; BLOCK]; BLOCK] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
+
+/// How far rays look for what keeps the sky away, in sizes of a body.
+const SKY_REACH: f64 = 3.0;
+
+/// Point `index` of `count` of the Hammersley set, turned on the torus by `shift`.
+fn pattern(index: u32, count: u32, shift: [f64; 2]) -> [f64; 2] {
+    let first = (f64::from(index) + 0.5) / f64::from(count) + shift[0];
+    let second = f64::from(index.reverse_bits()) / 4_294_967_296.0 + shift[1];
+    [first - first.floor(), second - second.floor()]
+}
+
+impl<const N: usize> Stage<N> {
+    /// What reaches the point of a sample, by `rays` rays to the sun and as many to the sky.
+    pub(crate) fn reach(
+        &self,
+        seen: &Seen,
+        light: &Light,
+        (x, y): (usize, usize),
+        rays: u32,
+        stack: &mut RayStack,
+    ) -> Reach {
+        if seen.key == SKY || seen.haze > 0.995 {
+            return Reach { sun: 1.0, sky: 1.0 };
+        }
+        let origin = seen.point + seen.normal * (1e-4 * self.size + 1e-9 * seen.distance);
+        let place = ORDER[y % BLOCK][x % BLOCK];
+        let count = rays * (BLOCK * BLOCK) as u32;
+        let (mut sun, mut sky) = (0, 0);
+        let faces_sun = seen.normal.dot(light.sun) > -0.05;
+        for ray in 0..rays {
+            let index = place + ray * (BLOCK * BLOCK) as u32;
+            if faces_sun {
+                let toward = light.toward_sun(pattern(index, count, [0.37, 0.21]));
+                sun += u32::from(!self.is_dark(origin, toward, f64::INFINITY, stack));
+            }
+            let toward = hemisphere(seen.normal, pattern(index, count, [0.0, 0.5]));
+            sky += u32::from(!self.is_dark(origin, toward, SKY_REACH * self.size, stack));
+        }
+        Reach { sun: sun as f32 / rays as f32, sky: sky as f32 / rays as f32 }
+    }
+
+    /// Whether something stands in the way; walls, which are of glass, do not.
+    fn is_dark(&self, origin: Vector<3>, toward: Vector<3>, reach: f64, stack: &mut RayStack) -> bool {
+        let floor = self.planes.iter().filter(|plane| plane.is_floor).any(|plane| {
+            let height = plane.normal.dot(origin) - plane.offset;
+            let closing = -plane.normal.dot(toward);
+            height > 0.0 && closing > 0.0 && height < closing * reach
+        });
+        floor || self.cut.blocks(&Ray::new(origin, toward).up_to(reach), stack)
+    }
+}
+
+/// The mean of the blocks around a pixel over pixels of the same surface, or of one that goes on nearly flat.
+pub(crate) fn smoothed(seen: &[Seen], raw: &[Reach], width: usize, (x, y): (usize, usize), size: f64) -> Reach {
+    let height = seen.len() / width;
+    let here = &seen[y * width + x];
+    let (mut sun, mut sky, mut count) = (0.0, 0.0, 0.0);
+    let rows = y.saturating_sub(BLOCK - 1)..(y + BLOCK + 1).min(height);
+    for row in rows {
+        for column in x.saturating_sub(BLOCK - 1)..(x + BLOCK + 1).min(width) {
+            let index = row * width + column;
+            let other = &seen[index];
+            let same = other.key == here.key || (other.key != SKY && other.normal.dot(here.normal) > 0.95);
+            let offset = other.point - here.point;
+            if same && offset.dot(here.normal).abs() < 0.02 * size {
+                sun += raw[index].sun;
+                sky += raw[index].sky;
+                count += 1.0;
+            }
+        }
+    }
+    if count == 0.0 {
+        return raw[y * width + x];
+    }
+    Reach { sun: sun / count, sky: sky / count }
+}

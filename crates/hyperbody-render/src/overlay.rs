@@ -1,0 +1,80 @@
+//! What is written on a picture: the caption, and the strip that shows where every body is along the hidden directions.
+
+use hyperbody::math::planes::AXIS_NAMES;
+
+use crate::colour::{self, Encoder};
+use crate::image::Image;
+use crate::picture::Settings;
+use crate::stage::{BodyLook, Stage};
+use crate::text;
+
+const INK: [u8; 3] = [38, 44, 58];
+
+pub(crate) fn draw<const N: usize>(image: &mut Image, stage: &Stage<N>, settings: &Settings) {
+    let unit = image.height() as f32 / 720.0;
+    if settings.strip {
+        for hidden in 3..N {
+            strip(image, stage, hidden, unit);
+        }
+    }
+    let line = 26.0 * unit;
+    let mut y = image.height() as f32 - 24.0 * unit - line * (settings.caption.len().saturating_sub(1)) as f32;
+    for (index, caption) in settings.caption.iter().enumerate() {
+        let height = if index == 0 { 22.0 } else { 18.0 } * unit;
+        text::draw(image, caption, (24.0 * unit, y), height, INK, 0.85);
+        y += line;
+    }
+}
+
+/// A rounded panel with a bar for each body over its extent along hidden direction `hidden`, and the slice as a line.
+fn strip<const N: usize>(image: &mut Image, stage: &Stage<N>, hidden: usize, unit: f32) {
+    let bars: Vec<(&BodyLook, [f64; 2])> =
+        stage.bodies.iter().filter_map(|look| Some((look, *look.hidden_extents.as_ref()?.get(hidden - 3)?))).collect();
+    if bars.is_empty() {
+        return;
+    }
+    let reach = bars.iter().flat_map(|(_, extent)| extent).fold(stage.size, |reach, end| reach.max(end.abs())) * 1.08;
+    let width = (96.0 * unit) as i64;
+    let (top, bottom) = ((24.0 * unit) as i64, i64::from(image.height()) - (24.0 * unit) as i64);
+    let right = i64::from(image.width()) - (20.0 * unit) as i64 - (hidden as i64 - 3) * (width + (10.0 * unit) as i64);
+    let left = right - width;
+    panel(image, [left, top, right, bottom], (10.0 * unit) as i64);
+    let middle = 0.5 * (top + bottom) as f64;
+    let scale = 0.5 * ((bottom - top) as f64 - 60.0 * f64::from(unit)) / reach;
+    let (inner_left, inner_width) = (left as f64 + 12.0 * f64::from(unit), width as f64 - 24.0 * f64::from(unit));
+    let encoder = Encoder::new();
+    let bar_width = (inner_width / bars.len() as f64 * 0.7).min(9.0 * f64::from(unit)).max(1.2);
+    for (index, (look, [low, high])) in bars.iter().enumerate() {
+        let centre = inner_left + inner_width * (index as f64 + 0.5) / bars.len() as f64;
+        let paint = if look.is_cut { colour::of_body(look.number) } else { colour::of_side(&look.middle[3..]) };
+        let cover = if look.is_cut { 0.95 } else { 0.4 };
+        let (from, to) = (middle - high * scale, middle - low * scale);
+        rectangle(image, [centre - 0.5 * bar_width, from, centre + 0.5 * bar_width, to], encoder.bytes(paint), cover);
+    }
+    let line = f64::from(unit).max(1.0);
+    rectangle(image, [left as f64, middle - line, right as f64, middle + line], INK, 0.85);
+    let name = AXIS_NAMES.get(hidden).copied().unwrap_or('?').to_string();
+    text::draw(image, &name, (left as f32 + 12.0 * unit, top as f32 + 24.0 * unit), 20.0 * unit, INK, 0.85);
+}
+
+/// A pale panel with round corners.
+fn panel(image: &mut Image, [left, top, right, bottom]: [i64; 4], radius: i64) {
+    for y in top..bottom {
+        for x in left..right {
+            let dx = (left + radius - x).max(x - (right - 1 - radius)).max(0) as f32;
+            let dy = (top + radius - y).max(y - (bottom - 1 - radius)).max(0) as f32;
+            let inside = (radius as f32 + 0.5 - (dx * dx + dy * dy).sqrt()).clamp(0.0, 1.0);
+            image.blend(x, y, [250, 251, 253], 0.55 * inside);
+        }
+    }
+}
+
+/// A rectangle with edges anywhere: pixels are covered by the share that lies inside.
+fn rectangle(image: &mut Image, [left, top, right, bottom]: [f64; 4], colour: [u8; 3], cover: f32) {
+    let share = |low: f64, high: f64, pixel: i64| (high.min(pixel as f64 + 1.0) - low.max(pixel as f64)).max(0.0);
+    for y in top.floor() as i64..bottom.ceil() as i64 {
+        for x in left.floor() as i64..right.ceil() as i64 {
+            image.blend(x, y, colour, cover * (share(left, right, x) * share(top, bottom, y)) as f32);
+        }
+    }
+}

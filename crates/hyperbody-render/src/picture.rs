@@ -1,0 +1,161 @@
+//! From a world to a picture: the settings, and what is chosen where nothing is set.
+
+use std::f64::consts::PI;
+
+use hyperbody::math::{Vector, scalar};
+use hyperbody::prelude::{BodyKind, World};
+
+use crate::camera::{Camera, Lens};
+use crate::error::RenderError;
+use crate::frame::Frame;
+use crate::image::Image;
+use crate::light::Light;
+use crate::slice::Slice;
+use crate::stage::{BodyLook, Stage};
+
+/// How a picture is made. `..Settings::default()` fills in the rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Pixels across, 16..=8192. Default 1280.
+    pub width: u32,
+    /// Pixels down, 16..=8192. Default 720.
+    pub height: u32,
+    /// Rays to the sun, and as many to the sky, per pixel, 1..=64. Default 3; blocks of 16 pixels share theirs.
+    pub light_rays: u32,
+    /// Samples of a pixel that holds an edge, 1..=64. Default 8.
+    pub edge_samples: u32,
+    /// Whether bodies close beside the slice show as tinted glass. Default true.
+    pub ghosts: bool,
+    /// The strip that shows where bodies are along the hidden directions. Default true.
+    pub strip: bool,
+    /// Lines of text in the lower left corner. Default none.
+    pub caption: Vec<String>,
+    /// Threads; 0 for one per core. The picture is the same for every number. Default 0.
+    pub threads: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            width: 1280,
+            height: 720,
+            light_rays: 3,
+            edge_samples: 8,
+            ghosts: true,
+            strip: true,
+            caption: Vec::new(),
+            threads: 0,
+        }
+    }
+}
+
+/// Most pixels across or down.
+pub const MAX_SIDE: u32 = 8192;
+
+impl Settings {
+    fn validate(&self) -> Result<(), RenderError> {
+        for (name, value) in [("width", self.width), ("height", self.height)] {
+            if !(16..=MAX_SIDE).contains(&value) {
+                return Err(RenderError::new(format!(
+                    "the {name} is {value} pixels; it must lie between 16 and {MAX_SIDE}"
+                )));
+            }
+        }
+        for (name, value) in [("light_rays", self.light_rays), ("edge_samples", self.edge_samples)] {
+            if !(1..=64).contains(&value) {
+                return Err(RenderError::new(format!("{name} is {value}; it must lie between 1 and 64")));
+            }
+        }
+        if self.threads > 256 {
+            return Err(RenderError::new(format!("threads is {}; it must lie between 0 and 256", self.threads)));
+        }
+        Ok(())
+    }
+}
+
+/// A picture of a slice of a world. Without a camera, one is chosen by [`frame_bodies`]. `progress` is told that so many
+/// more rows are done, of three times the height.
+///
+/// # Errors
+/// If a setting is outside its range, the camera is not finite, or the threads cannot be started.
+pub fn render<const N: usize>(
+    world: &World<N>,
+    slice: &Slice<N>,
+    camera: Option<&Camera>,
+    settings: &Settings,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Image, RenderError> {
+    settings.validate()?;
+    let camera = camera
+        .copied()
+        .unwrap_or_else(|| frame_bodies(world, slice, f64::from(settings.width) / f64::from(settings.height)));
+    check(&camera)?;
+    let stage = Stage::new(world, slice);
+    let lens = Lens::new(&camera, settings.width, settings.height);
+    let frame = Frame {
+        stage: &stage,
+        lens,
+        light: Light::new(stage.up, camera.target - camera.eye),
+        width: settings.width as usize,
+        height: settings.height as usize,
+        light_rays: settings.light_rays,
+        edge_samples: settings.edge_samples,
+        ghosts: settings.ghosts,
+        progress,
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
+    let pool = pool.map_err(|error| RenderError::new(format!("{} threads: {error}", settings.threads)))?;
+    let mut image = pool.install(|| frame.image());
+    crate::overlay::draw(&mut image, &stage, settings);
+    Ok(image)
+}
+
+fn check(camera: &Camera) -> Result<(), RenderError> {
+    let finite = camera.eye.is_finite() && camera.target.is_finite() && camera.up.is_finite();
+    if !finite || camera.eye == camera.target {
+        return Err(RenderError::new(format!(
+            "the camera stands at {:?} and looks at {:?}: both must be finite, and apart",
+            camera.eye.0, camera.target.0
+        )));
+    }
+    if !(1e-6..PI).contains(&camera.field_of_view) {
+        return Err(RenderError::new(format!(
+            "the field of view is {} rad; it must lie between 1e-6 and π",
+            camera.field_of_view
+        )));
+    }
+    Ok(())
+}
+
+/// A camera that has the moving bodies in view that the slice cuts, or all of them if it cuts none, but for the few that
+/// flew far away. `aspect` is width over height.
+#[must_use]
+pub fn frame_bodies<const N: usize>(world: &World<N>, slice: &Slice<N>, aspect: f64) -> Camera {
+    let stage = Stage::new(world, slice);
+    let moving = |look: &&BodyLook| look.kind == BodyKind::Dynamic;
+    let solid = |look: &&BodyLook| look.hidden_extents.is_some();
+    let choices: [Vec<&BodyLook>; 3] = [
+        stage.bodies.iter().filter(moving).filter(|look| look.is_cut).collect(),
+        stage.bodies.iter().filter(moving).collect(),
+        stage.bodies.iter().filter(solid).collect(),
+    ];
+    let chosen = choices.into_iter().find(|looks| !looks.is_empty()).unwrap_or_default();
+    let middles: Vec<Vector<3>> = chosen.iter().map(|look| look.seen_middle()).collect();
+    let largest = chosen.iter().map(|look| look.radius).fold(0.0, f64::max);
+    let target = Vector::from_fn(|axis| {
+        let mut along: Vec<f64> = middles.iter().map(|middle| middle[axis]).collect();
+        along.sort_unstable_by(f64::total_cmp);
+        // Half-way between the outer twentieths: those beyond do not pull.
+        let trim = along.len() / 20;
+        if along.is_empty() { 0.0 } else { 0.5 * (along[trim] + along[along.len() - 1 - trim]) }
+    });
+    let mut away: Vec<f64> = middles.iter().map(|middle| middle.distance(target)).collect();
+    away.sort_unstable_by(f64::total_cmp);
+    let radius = away.get(away.len().saturating_sub(1) * 19 / 20).map_or(2.0, |away| 0.85 * away + largest);
+    // A flat world is seen from the front.
+    let (azimuth, elevation) = if N == 2 { (0.12, 0.16) } else { (0.6, 0.3) };
+    let mut camera = Camera::around(target, stage.up, 1.0, azimuth, elevation);
+    let half_angle = scalar::sin(0.5 * camera.field_of_view) * aspect.min(1.0);
+    camera.eye = target + (camera.eye - target) * (radius / half_angle);
+    camera
+}
