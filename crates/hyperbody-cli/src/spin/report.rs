@@ -197,7 +197,7 @@ impl Report {
     /// The time step in words: "1/240 s" where that is what was meant.
     pub(super) fn dt_text(&self) -> String {
         let per_second = (1.0 / self.dt).round();
-        if self.dt < 0.1 && (per_second * self.dt - 1.0).abs() < 1e-9 {
+        if (1e-6..0.1).contains(&self.dt) && (per_second * self.dt - 1.0).abs() < 1e-9 {
             format!("1/{per_second} s")
         } else {
             format!("{} s", number(self.dt))

@@ -89,7 +89,7 @@ fn equations(report: &Report) -> String {
             .drives
             .iter()
             .filter(|drive| drive.coefficient != 0.0)
-            .map(|drive| format!("{:+.4} {}·{}", drive.coefficient, drive.planes[0], drive.planes[1]))
+            .map(|drive| format!("{} {}·{}", coefficient(drive.coefficient), drive.planes[0], drive.planes[1]))
             .collect();
         table.add_row([
             equation.plane.clone(),
@@ -100,6 +100,11 @@ fn equations(report: &Report) -> String {
         ]);
     }
     table.to_string()
+}
+
+/// A coefficient with its sign, in a width that suits a column.
+fn coefficient(value: f64) -> String {
+    if value.abs() < 5e-4 { format!("{value:+.0e}") } else { format!("{value:+.4}") }
 }
 
 fn drift(report: &Report) -> String {

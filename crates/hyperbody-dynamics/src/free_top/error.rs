@@ -49,7 +49,8 @@ pub(crate) fn shown(value: f64) -> String {
 /// As [`shown`], with six significant digits at most.
 pub(crate) fn rounded(value: f64) -> String {
     // Digits written and read again are the nearest number that needs no more of them.
-    format!("{value:.5e}").parse().map_or_else(|_| shown(value), shown)
+    let nearest = format!("{value:.5e}").parse().unwrap_or(value);
+    if (1e-4..1e7).contains(&nearest.abs()) || nearest == 0.0 { shown(nearest) } else { format!("{nearest:e}") }
 }
 
 impl fmt::Display for FreeTopError {
@@ -70,9 +71,7 @@ mod tests {
     #[test]
     fn numbers_are_as_short_as_they_can_be() {
         assert_eq!([4.0, -0.25, 1e300, 1e-320].map(shown), ["4", "-0.25", "1e300", "1e-320"]);
-        assert_eq!(
-            [1.2000000000000002, 2.0 / 3.0, 123456789.0, f64::NAN].map(rounded),
-            ["1.2", "0.666667", "123457000", "NaN"]
-        );
+        let values = [1.200_000_000_000_000_2, 2.0 / 3.0, 0.0, 123_456_789.0, -1.5e-9, f64::NAN];
+        assert_eq!(values.map(rounded), ["1.2", "0.666667", "0", "1.23457e8", "-1.5e-9", "NaN"]);
     }
 }

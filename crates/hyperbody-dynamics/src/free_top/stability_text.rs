@@ -110,6 +110,13 @@ fn pair_reason<const N: usize>(top: &FreeTop<N>, first: PrincipalTurn, second: P
     let in_first = |axis: usize| axis == first.i || axis == first.j;
     let partner = (1..4).find(|&k| in_first(axes[k]) == in_first(axes[0])).unwrap_or(1);
     let (outer, inner) = if in_first(axes[0]) { (first, second) } else { (second, first) };
+    if sorted.windows(2).all(|pair| pair[0] == pair[1]) {
+        return format!(
+            "the axes of {} and {} have equal moments, so that no plane drives another",
+            name(first),
+            name(second)
+        );
+    }
     if sorted.windows(2).any(|pair| pair[0] == pair[1]) {
         return format!("{} and {} with {}, some of them equal", name(first), name(second), order.join(", "));
     }

@@ -15,6 +15,10 @@ use super::error::{FreeTopError, FreeTopErrorKind, Result, rounded, shown};
 /// Largest relative contradiction between given moments of inertia that counts as rounding.
 const MOMENT_TOLERANCE: f64 = 1e-9;
 
+/// Relative difference up to which computed moments count as equal: those of polytopes come out to about 1e-13, and a
+/// difference that small would turn a ball-like body over in 10¹² turns.
+const EQUAL_COMPUTED: f64 = 1e-12;
+
 /// Second moment below which a direction counts as flat, relative to the largest.
 const FLAT: f64 = 1e-14;
 
@@ -113,12 +117,12 @@ impl<const N: usize> FreeTop<N> {
             }
             moments[axis] = moments[axis].max(0.0);
         }
-        Self::new(moments)
+        Self::new(join_equal(&moments))
     }
 
     /// The body with the given mass properties, per unit mass: moments J_i in m² in descending order, which is what
-    /// tables list, and the attitude `body_from_principal` of the principal axes. The motion does not depend on the mass;
-    /// momenta and energies are those of one kilogram.
+    /// tables list, those that differ by rounding alone made equal, and the attitude `body_from_principal` of the principal
+    /// axes. The motion does not depend on the mass; momenta and energies are those of one kilogram.
     ///
     /// # Errors
     /// If the mass is not positive, and as [`FreeTop::new`].
@@ -130,7 +134,7 @@ impl<const N: usize> FreeTop<N> {
         // A flat direction comes out of the diagonalisation as zero up to rounding of the largest moment.
         let floor = FLAT * moments.max_abs();
         let cleaned = Vector::from_fn(|i| if moments[i].abs() < floor { 0.0 } else { moments[i] });
-        Ok((Self::new(cleaned)?, body_from_principal))
+        Ok((Self::new(join_equal(&cleaned))?, body_from_principal))
     }
 
     /// The body of a shape of even density, as [`FreeTop::from_mass_properties`].
@@ -202,6 +206,26 @@ impl<const N: usize> FreeTop<N> {
         let omega = spin.to_matrix();
         Bivector::from_fn(|i, j| self.asymmetry(i, j) * omega.row(i).dot(omega.row(j)))
     }
+}
+
+/// Moments that are equal up to rounding, made equal: whether they are decides what is stable and what is conserved.
+fn join_equal<const N: usize>(moments: &Vector<N>) -> Vector<N> {
+    let width = EQUAL_COMPUTED * moments.max_abs();
+    let mut order: [usize; N] = std::array::from_fn(|axis| axis);
+    order.sort_by(|&a, &b| moments[a].total_cmp(&moments[b]));
+    let mut joined = *moments;
+    let mut rest = &order[..];
+    while let Some(&first) = rest.first() {
+        let count = rest.iter().take_while(|&&axis| moments[axis] - moments[first] <= width).count();
+        let (equal, above) = rest.split_at(count);
+        // A moment that stands alone keeps its bits.
+        if count > 1 {
+            let mean = equal.iter().map(|&axis| moments[axis]).sum::<f64>() / count as f64;
+            equal.iter().for_each(|&axis| joined[axis] = mean);
+        }
+        rest = above;
+    }
+    joined
 }
 
 fn bad_moments(message: String) -> FreeTopError {

@@ -58,6 +58,10 @@ impl ValueFormatter<f64> for Axis {
 /// Round numbers between two ends, about `count` of them.
 pub(super) fn ticks(from: f64, to: f64, count: usize) -> Vec<f64> {
     let step = (to - from) / count as f64;
+    if !(step.is_normal() && step > f64::EPSILON * from.abs().max(to.abs())) {
+        // Too narrow a range for numbers in between.
+        return vec![from, to];
+    }
     // Rounding may choose the power below a whole one; ten times that is among the factors.
     let power = scalar::pow(10.0, (scalar::ln(step) * LOG10_E).floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power).into_iter().find(|&s| s >= step).unwrap_or(step);
@@ -93,6 +97,8 @@ mod tests {
         assert_eq!(ticks(-1.5, 1.5, 6), [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]);
         assert_eq!(ticks(0.0, 60.0, 6), [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0]);
         assert_eq!(ticks(0.0, 0.35, 5).len(), 4);
+        assert_eq!(ticks(0.0, 5e-324, 8), [0.0, 5e-324]);
+        assert_eq!(ticks(1.0, 1.0 + 1e-15, 6), [1.0, 1.0 + 1e-15]);
         assert_eq!(tick_text(-0.5), "−0.5");
         assert_eq!(tick_text(0.1 + 0.2), "0.3");
         assert_eq!(tick_text(-0.0), "0");

@@ -11,15 +11,16 @@ use crate::output::number;
 use crate::spin::report::{DriftSeries, Named, Report};
 
 /// Heights in pixels.
-const HEAD: f64 = 146.0;
+const HEAD: f64 = 178.0;
 const CHART: f64 = 620.0;
 const SPHERES: f64 = 800.0;
 
 /// Spin below this part of the largest one counts as none.
 const NO_SPIN: f64 = 1e-9;
 
-/// Planes whose spin at the start fits into a line.
+/// Planes whose spin at the start fits into a line, alone and with the push in the others.
 const NAMED_PLANES: usize = 5;
+const NAMED_WITH_PUSH: usize = 3;
 
 enum Part {
     Chart(Chart),
@@ -66,19 +67,26 @@ pub(in crate::spin) fn draw(report: &Report, panels: &[Panel]) -> Result<String,
 
 fn draw_head(area: &Area<'_>, report: &Report) -> Drawn {
     let moments: Vec<String> = report.moments.iter().map(|&moment| number(moment)).collect();
-    let title =
-        format!("Free body in {} dimensions, J = ({}) {}", report.dimension, moments.join(", "), report.moments_unit);
+    let title = format!("Free body in {} dimensions", report.dimension);
+    let moments = format!("second moments J = ({}) {}", moments.join(", "), report.moments_unit);
     let verdict = match report.stability.stable {
         Some(true) => "stable".to_owned(),
         Some(false) => format!("unstable, growth rate {} /s", number(report.stability.growth_rate)),
         None => "no verdict from the linear problem".to_owned(),
     };
     let planes: Vec<&str> = report.stability.rotation.0.iter().map(|(plane, _)| plane.as_str()).collect();
-    let spin = report.spin_text(NAMED_PLANES).replace('-', "−");
+    let named = if report.push == 0.0 { NAMED_PLANES } else { NAMED_WITH_PUSH };
+    let spin = format!("spin at the start: {}", report.spin_text(named).replace('-', "−"));
+    let judged = if planes.is_empty() {
+        "the body does not turn".to_owned()
+    } else {
+        format!("steady rotation in {}: {verdict}", planes.join(" and "))
+    };
     write(area, &title, (LEFT, 36.0), 1.1 * TITLE, INK, HPos::Left)?;
-    write(area, &format!("spin at the start: {spin}"), (LEFT, 80.0), LABEL, GREY, HPos::Left)?;
-    let judged = format!("steady rotation in {}: {verdict}", planes.join(" and "));
-    write(area, &judged, (LEFT, 114.0), LABEL, GREY, HPos::Left)
+    for (line, text) in [moments, spin, judged].iter().enumerate() {
+        write(area, text, (LEFT, 80.0 + 34.0 * line as f64), LABEL, GREY, HPos::Left)?;
+    }
+    Ok(())
 }
 
 fn spins(report: &Report) -> Chart {
