@@ -13,7 +13,7 @@ const GALLERY: &str = "docs/pictures/gallery";
 
 #[derive(Args)]
 pub(crate) struct PicturesArguments {
-    /// Only these: names of built-in scenes, or "hero" for the README's picture
+    /// Only these: names of built-in scenes, "hero" and "film" for the README's picture and film
     names: Vec<String>,
 }
 
@@ -34,6 +34,30 @@ const HERO: [&str; 15] = [
     "8",
     "--output",
     "docs/pictures/dice4d.png",
+];
+
+/// A film of the same scene at rest, with the slice moving through it.
+const FILM: [&str; 20] = [
+    "dice4d",
+    "--at",
+    "3",
+    "--seconds",
+    "3.4",
+    "--frame-rate",
+    "12",
+    "--slice",
+    "w=-1.6",
+    "--slice-to",
+    "w=1.6",
+    "--camera",
+    "30,16,8",
+    "--width",
+    "480",
+    "--height",
+    "270",
+    "--no-caption",
+    "--output",
+    "docs/pictures/through-w.gif",
 ];
 
 /// What is better shown otherwise than after three seconds and cut at w = 0.
@@ -59,6 +83,10 @@ pub(crate) fn run(arguments: &PicturesArguments) -> Outcome {
     let mut drawn = 0;
     if wanted("hero") {
         draw(&program, &HERO)?;
+        drawn += 1;
+    }
+    if wanted("film") {
+        draw(&program, &FILM)?;
         drawn += 1;
     }
     let folder = root().join(GALLERY);

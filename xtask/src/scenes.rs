@@ -47,13 +47,14 @@ fn gallery() -> Outcome<String> {
         "# The built-in scenes\n\n\
          Written by `cargo xtask scenes`; edit the builders in crates/hyperbody-scene/src/gallery instead.\n\
          Each runs with `hyperbody run NAME`, and `hyperbody scenes --write DIR` saves them all as files.\n\n\
-         | name | dimension | bodies | what to see |\n|---|---|---|---|\n",
+         The pictures are drawn by `cargo xtask pictures`; from four dimensions on they show a slice.\n\n\
+         | | name | dimension | bodies | what to see |\n|---|---|---|---|---|\n",
     );
     for scene in scenes {
         let field = |key: &str| scene[key].as_str().map_or_else(|| scene[key].to_string(), str::to_owned);
         writeln!(
             page,
-            "| `{}` | {} | {} | {} |",
+            "| <img src=\"pictures/gallery/{0}.png\" width=\"240\" alt=\"\"> | `{0}` | {1} | {2} | {3} |",
             field("name"),
             field("dimension"),
             field("bodies"),

@@ -5,7 +5,7 @@ pub(crate) mod arguments;
 use std::sync::Mutex;
 
 use hyperbody::math::{Dim, EvenAlgebra, Vector, planes};
-use hyperbody_render::{Camera, Image, RenderError, Settings, Slice, frame_bodies, render as draw};
+use hyperbody_render::{Camera, Film, FilmFormat, Image, RenderError, Settings, Slice, frame_bodies, render as draw};
 use hyperbody_scene::{AnyWorld, DimensionVisitor, Scene, visit_dimension};
 
 use crate::arguments::MAX_STEPS;
@@ -25,13 +25,61 @@ impl From<RenderError> for Failure {
 pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let scene = source::scene(&arguments.scene)?;
     let mut world = AnyWorld::new(&scene, usize::from(arguments.threads.unwrap_or(1)))?;
-    let view = View::new(arguments, scene.dimension)?;
-    let target = Target::new("--output", &arguments.output, &["png"])?;
-    advance(&scene, &mut world, arguments.at)?;
-    let image = view.picture(&scene, &world)?;
-    let mut bytes = Vec::new();
-    image.write_png(&mut bytes)?;
+    let target = Target::new("--output", &arguments.output, &["png", "gif", "apng"])?;
+    let bytes = match target.extension() {
+        "gif" => film(arguments, &scene, &mut world, FilmFormat::Gif)?,
+        "apng" => film(arguments, &scene, &mut world, FilmFormat::Apng)?,
+        _ => {
+            let view = View::new(arguments, scene.dimension, 0.0)?;
+            advance(&scene, &mut world, arguments.at)?;
+            let mut bytes = Vec::new();
+            view.picture(&scene, &world, None)?.image.write_png(&mut bytes)?;
+            bytes
+        }
+    };
     target.write(&bytes)
+}
+
+/// Most pictures of a film: three minutes at 20 a second.
+const MAX_FRAMES: f64 = 3600.0;
+
+/// Pictures of a span, all by the camera that the first one chose.
+fn film(
+    arguments: &RenderArguments,
+    scene: &Scene,
+    world: &mut AnyWorld,
+    format: FilmFormat,
+) -> Result<Vec<u8>, Failure> {
+    let rate = f64::from(arguments.frame_rate);
+    let frames = (arguments.seconds * rate).round().max(1.0);
+    if frames > MAX_FRAMES {
+        return Err(Failure::Input(format!(
+            "--seconds {} at {rate} pictures a second are {frames} pictures; at most {MAX_FRAMES} make a film",
+            arguments.seconds
+        )));
+    }
+    View::new(arguments, scene.dimension, 1.0)?;
+    let mut bytes = Vec::new();
+    let size = (arguments.width, arguments.height);
+    let mut film = Film::new(&mut bytes, format, size, frames as u32, arguments.frame_rate)?;
+    let mut progress = Progress::new("pictures of the film", frames as u64);
+    let mut camera = None;
+    for frame in 0..frames as u32 {
+        let share = f64::from(frame) / (frames - 1.0).max(1.0);
+        advance(scene, world, arguments.at + f64::from(frame) / rate)?;
+        let drawn = View::new(arguments, scene.dimension, share)?.picture(scene, world, camera)?;
+        film.add(&drawn.image)?;
+        camera = Some(drawn.camera);
+        progress.advance();
+    }
+    film.finish()?;
+    Ok(bytes)
+}
+
+/// A picture and the camera that saw it.
+struct Drawn {
+    image: Image,
+    camera: Camera,
 }
 
 /// Simulates up to a moment.
@@ -61,11 +109,17 @@ struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    fn new(arguments: &'a RenderArguments, dimension: usize) -> Result<Self, Failure> {
+    /// `share` of the way from --slice to --slice-to is done.
+    fn new(arguments: &'a RenderArguments, dimension: usize, share: f64) -> Result<Self, Failure> {
         let bad = |option: &str, message: String| Failure::Input(format!("{option}: {message}"));
         let mut point = vec![0.0; dimension];
         for (name, value) in arguments.slice.iter().flat_map(|list| &list.0) {
             point[arguments::axis(name, dimension).map_err(|message| bad("--slice", message))?] = *value;
+        }
+        let from = point.clone();
+        for (name, value) in arguments.slice_to.iter().flat_map(|list| &list.0) {
+            let axis = arguments::axis(name, dimension).map_err(|message| bad("--slice-to", message))?;
+            point[axis] = from[axis] + (value - from[axis]) * share;
         }
         let mut turns = Vec::new();
         for (name, degrees) in arguments.turn.iter().flat_map(|list| &list.0) {
@@ -85,8 +139,8 @@ impl<'a> View<'a> {
         Ok(Self { arguments, point, turns })
     }
 
-    /// The world as it is now.
-    fn picture(&self, scene: &Scene, world: &AnyWorld) -> Result<Image, Failure> {
+    /// The world as it is now; without a camera, with one that fits.
+    fn picture(&self, scene: &Scene, world: &AnyWorld, camera: Option<Camera>) -> Result<Drawn, Failure> {
         let rows = 3 * u64::from(self.arguments.height);
         let progress = Mutex::new((Progress::new("drawing", rows), 0));
         let tell = |more: u64| {
@@ -96,7 +150,7 @@ impl<'a> View<'a> {
                 progress.0.reach(done);
             }
         };
-        let task = Draw { view: self, world, caption: self.caption(scene, world), tell: &tell };
+        let task = Draw { view: self, world, camera, caption: self.caption(scene, world), tell: &tell };
         let nothing = || Err(Failure::Work(format!("no pictures in {} dimensions", world.dimension())));
         visit_dimension(world.dimension(), task).unwrap_or_else(nothing)
     }
@@ -107,7 +161,7 @@ impl<'a> View<'a> {
         }
         let mut second = format!("t = {:.2} s", world.time());
         for hidden in 3..scene.dimension {
-            second += &format!("   {} = {}", planes::AXIS_NAMES[hidden], number(self.point[hidden]));
+            second += &format!("   {} = {:.2}", planes::AXIS_NAMES[hidden], self.point[hidden]);
         }
         for (i, j, angle) in &self.turns {
             second += &format!("   {} turned {}°", planes::name(*i, *j), number(angle.to_degrees()));
@@ -147,12 +201,13 @@ impl<'a> View<'a> {
 struct Draw<'a> {
     view: &'a View<'a>,
     world: &'a AnyWorld,
+    camera: Option<Camera>,
     caption: Vec<String>,
     tell: &'a (dyn Fn(u64) + Sync),
 }
 
 impl DimensionVisitor for Draw<'_> {
-    type Output = Result<Image, Failure>;
+    type Output = Result<Drawn, Failure>;
 
     fn visit<const N: usize>(self) -> Self::Output
     where
@@ -162,7 +217,7 @@ impl DimensionVisitor for Draw<'_> {
         let world = self.world.get::<N>().ok_or_else(|| Failure::Work("the world has another dimension".to_owned()))?;
         let slice = self.view.slice::<N>();
         let aspect = f64::from(arguments.width) / f64::from(arguments.height);
-        let camera = self.view.camera(frame_bodies(world, &slice, aspect));
+        let camera = self.camera.unwrap_or_else(|| self.view.camera(frame_bodies(world, &slice, aspect)));
         let settings = Settings {
             width: arguments.width,
             height: arguments.height,
@@ -173,6 +228,7 @@ impl DimensionVisitor for Draw<'_> {
             threads: arguments.threads.map_or(0, usize::from),
             ..Settings::default()
         };
-        Ok(draw(world, &slice, Some(&camera), &settings, self.tell)?)
+        let image = draw(world, &slice, Some(&camera), &settings, self.tell)?;
+        Ok(Drawn { image, camera })
     }
 }

@@ -50,6 +50,20 @@ fn threads_change_nothing_and_views_change_the_picture() {
     }
 }
 
+#[test]
+fn films_are_written_and_the_same_every_time() {
+    let span: &[&str] =
+        &["dice4d", "--seconds", "0.2", "--frame-rate", "20", "--slice", "w=-0.5", "--slice-to", "w=0.5"];
+    let gif = draw("film.gif", span);
+    assert_eq!(&gif[..6], b"GIF89a");
+    // Each picture has a control block with its delay in hundredths of a second.
+    let controls = gif.windows(6).filter(|bytes| bytes.starts_with(&[0x21, 0xf9, 4]) && bytes[4..] == [5, 0]).count();
+    assert_eq!(controls, 4, "four pictures, 50 ms each");
+    assert_eq!(gif, draw("again.gif", &[span, &["--threads", "1"]].concat()));
+    let apng = draw("film.apng", span);
+    assert_eq!(apng.windows(4).filter(|bytes| bytes == b"fcTL").count(), 4, "four pictures");
+}
+
 /// The command is refused with exit status 2, one line that holds the word, and no file.
 fn refused(arguments: &[&str], word: &str) {
     let output = hyperbody(&[&["render"], arguments].concat());
@@ -63,6 +77,10 @@ fn what_makes_no_picture_is_refused_before_the_work() {
     let png = place("refused.png");
     let png = png.to_str().expect("a path in UTF-8");
     refused(&["dice4d", "-o", "dice.jpg"], ".png");
+    refused(&["dice4d", "-o", "dice.mp4"], ".gif");
+    refused(&["dice4d", "-o", "dice.gif", "--seconds", "1e6"], "3600");
+    refused(&["dice4d", "-o", "dice.gif", "--frame-rate", "0"], "--frame-rate");
+    refused(&["dice4d", "-o", "dice.gif", "--slice-to", "v=1"], "x y z w");
     refused(&["dice4d", "-o", "/no/such/folder/dice.png"], "/no/such/folder");
     refused(&["dice4d", "-o", env!("CARGO_TARGET_TMPDIR")], "png");
     refused(&["dyce4d", "-o", png], "dice4d");

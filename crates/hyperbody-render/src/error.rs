@@ -28,3 +28,9 @@ impl From<png::EncodingError> for RenderError {
         Self::new(format!("the picture cannot be written: {error}"))
     }
 }
+
+impl From<gif::EncodingError> for RenderError {
+    fn from(error: gif::EncodingError) -> Self {
+        Self::new(format!("the film cannot be written: {error}"))
+    }
+}

@@ -10,6 +10,7 @@
 //! | [`camera`] | [`Camera`]: where the eye is in the slice |
 //! | [`picture`] | [`render`], [`Settings`] |
 //! | [`image`] | [`Image`]: the finished picture, and PNG |
+//! | [`film`] | [`Film`]: GIF and animated PNG |
 //! | `stage`, `solid` | the world cut by the slice: sections, ghosts, planes |
 //! | `surface` | what a ray sees: colours of cells, edges, floor, glass |
 //! | `light`, `occlusion`, `frame` | sun and sky, how much of them arrives, and the picture |
@@ -19,6 +20,7 @@
 pub mod camera;
 mod colour;
 pub mod error;
+pub mod film;
 mod frame;
 pub mod image;
 mod light;
@@ -33,6 +35,7 @@ mod text;
 
 pub use camera::Camera;
 pub use error::RenderError;
+pub use film::{Film, FilmFormat};
 pub use image::Image;
 pub use picture::{Settings, frame_bodies, render};
 pub use slice::Slice;

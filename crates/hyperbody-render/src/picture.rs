@@ -11,7 +11,7 @@ use crate::frame::Frame;
 use crate::image::Image;
 use crate::light::Light;
 use crate::slice::Slice;
-use crate::stage::{BodyLook, Stage};
+use crate::stage::{BodyLook, GHOST_REACH, Stage};
 
 /// How a picture is made. `..Settings::default()` fills in the rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,15 +127,16 @@ fn check(camera: &Camera) -> Result<(), RenderError> {
     Ok(())
 }
 
-/// A camera that has the moving bodies in view that the slice cuts, or all of them if it cuts none, but for the few that
-/// flew far away. `aspect` is width over height.
+/// A camera that has the moving bodies in view that the slice cuts or nearly cuts, or all of them if there are none, but for
+/// the few that flew far away. `aspect` is width over height.
 #[must_use]
 pub fn frame_bodies<const N: usize>(world: &World<N>, slice: &Slice<N>, aspect: f64) -> Camera {
     let stage = Stage::new(world, slice);
     let moving = |look: &&BodyLook| look.kind == BodyKind::Dynamic;
+    let is_shown = |look: &&BodyLook| look.gap().is_some_and(|gap| gap <= GHOST_REACH * stage.size);
     let solid = |look: &&BodyLook| look.hidden_extents.is_some();
     let choices: [Vec<&BodyLook>; 3] = [
-        stage.bodies.iter().filter(moving).filter(|look| look.is_cut).collect(),
+        stage.bodies.iter().filter(moving).filter(is_shown).collect(),
         stage.bodies.iter().filter(moving).collect(),
         stage.bodies.iter().filter(solid).collect(),
     ];
@@ -151,7 +152,7 @@ pub fn frame_bodies<const N: usize>(world: &World<N>, slice: &Slice<N>, aspect: 
     });
     let mut away: Vec<f64> = middles.iter().map(|middle| middle.distance(target)).collect();
     away.sort_unstable_by(f64::total_cmp);
-    let radius = away.get(away.len().saturating_sub(1) * 19 / 20).map_or(2.0, |away| 0.85 * away + largest);
+    let radius = away.get(away.len().saturating_sub(1) * 19 / 20).map_or(2.0, |away| away + 0.8 * largest);
     // A flat world is seen from the front.
     let (azimuth, elevation) = if N == 2 { (0.12, 0.16) } else { (0.6, 0.3) };
     let mut camera = Camera::around(target, stage.up, 1.0, azimuth, elevation);

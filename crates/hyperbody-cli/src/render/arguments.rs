@@ -13,19 +13,27 @@ use crate::arguments::seconds;
     hyperbody render dice4d -o dice.png                      three seconds into the scene, cut at w = 0\n  \
     hyperbody render dice4d -o dice.png --at 1 --slice w=0.5 another moment, another slice\n  \
     hyperbody render pit4d -o turned.png --turn xw=30        a slice turned by 30° from x towards w\n  \
-    hyperbody render pyramid3d -o front.png --camera 0,10    seen from the front, 10° from above\n\n\
+    hyperbody render pyramid3d -o front.png --camera 0,10    seen from the front, 10° from above\n  \
+    hyperbody render dice4d -o dice.gif --at 0 --seconds 3 --width 480 --height 270\n  \
+    hyperbody render pit4d -o through.gif --at 3 --seconds 4 --slice w=-2 --slice-to w=2\n\n\
     In four and more dimensions a picture shows a three-dimensional slice. Bodies beside it appear as glass, blue on the \
     positive side of w and orange on the negative; the strip on the right shows where every body is along w, and the slice \
     as a line.")]
 pub(crate) struct RenderArguments {
     /// A scene file or the name of a built-in scene
     pub(crate) scene: String,
-    /// Where to: a .png file
+    /// Where to: a .png file for a picture, .gif or .apng for a film
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// The moment to show, in simulated seconds
     #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds, allow_hyphen_values = true)]
     pub(crate) at: f64,
+    /// Length of a film that begins at that moment, in simulated seconds
+    #[arg(long, value_name = "S", default_value_t = 4.0, value_parser = seconds, allow_hyphen_values = true)]
+    pub(crate) seconds: f64,
+    /// Pictures per second of a film
+    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(1..=50))]
+    pub(crate) frame_rate: u16,
     /// Pixels across
     #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(16..=i64::from(MAX_SIDE)))]
     pub(crate) width: u32,
@@ -35,6 +43,9 @@ pub(crate) struct RenderArguments {
     /// A point that the slice goes through, by axes, in metres; axes left out are 0
     #[arg(long, value_name = "w=0.5,…", value_parser = assignments, allow_hyphen_values = true)]
     pub(crate) slice: Option<Assignments>,
+    /// Where the slice is at the end of a film; it goes there evenly
+    #[arg(long, value_name = "w=1,…", value_parser = assignments, allow_hyphen_values = true)]
+    pub(crate) slice_to: Option<Assignments>,
     /// Turns of the slice by planes, in degrees, one after the other
     #[arg(long, value_name = "xw=30,…", value_parser = assignments, allow_hyphen_values = true)]
     pub(crate) turn: Option<Assignments>,
