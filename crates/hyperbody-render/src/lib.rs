@@ -6,7 +6,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`slice`] | [`Slice`]: which three directions of the world are seen |
+//! | [`slice`](mod@slice) | [`Slice`]: which three directions of the world are seen |
 //! | [`camera`] | [`Camera`]: where the eye is in the slice |
 //! | [`picture`] | [`render`], [`Settings`] |
 //! | [`image`] | [`Image`]: the finished picture, and PNG |
