@@ -35,10 +35,11 @@ const STRUCTURE: &[Case] = &[
         "{\"ball\": {\"radius\": 0.5}, \"box\": {}}",
         &["bodies[2].shape", "2 keys", "one of"],
     ),
+    ("{\"ball\": {\"radius\": 0.5}}", "{\"product\": {\"factors\": []}}", &["bodies[2].shape.product", "0 factors"]),
     (
         "{\"ball\": {\"radius\": 0.5}}",
-        "{\"product\": {\"factors\": []}}",
-        &["not supported yet", "ball, box", "compound"],
+        "{\"product\": {\"factors\": [{\"shape\": {\"ball\": {\"radius\": 0.5}}, \"axes\": \"xq\"}]}}",
+        &["bodies[2].shape.product.factors[0].axes", "unknown axis \"q\""],
     ),
     ("{\"ball\": {\"radius\": 0.5}}", "{\"mesh\": {\"file\": \"a.off\"}}", &["\"mesh\"", "not supported yet"]),
     ("\"ball\": {\"a\"", "\"hinge\": {\"a\"", &["joints[0]", "\"hinge\"", "not supported yet", "ball"]),

@@ -7,6 +7,7 @@
 //! | [`polytope`] | [`Polytope`]: vertices, facets and their incidences |
 //! | [`face_lattice`] | [`FaceLattice`]: the faces of a polytope of all ranks |
 //! | [`hull`] | the convex hull of points |
+//! | [`product`] | [`Product`](product::Product): products of shapes of lower dimension |
 //! | [`regular`] | the regular polytopes by name |
 //! | [`off`] | OFF files |
 //! | [`section`] | [`SectionPolytope`]: sections by hyperplanes |
@@ -26,6 +27,7 @@ mod incidence;
 pub mod mass;
 pub mod off;
 pub mod polytope;
+pub mod product;
 mod quadrature;
 pub mod regular;
 pub mod section;

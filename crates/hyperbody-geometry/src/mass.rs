@@ -113,6 +113,7 @@ impl<const N: usize> Shape<N> {
                 Ok(rounded_box::properties(Vector::unit(*along) * *half_length, *radius))
             }
             Self::Polytope(polytope) => Ok(MassProperties::of_polytope(polytope)),
+            Self::Product(product) => Ok(product.unit_properties()),
             Self::Rounded { core, radius } => match core.as_ref() {
                 Self::Box { half_extents } => Ok(rounded_box::properties(*half_extents, *radius)),
                 Self::Polytope(polytope) => rounded_polytope::properties(polytope, *radius),

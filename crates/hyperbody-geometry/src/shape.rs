@@ -5,7 +5,9 @@ use std::sync::Arc;
 use hyperbody_math::{Pose, Vector};
 
 use crate::error::GeometryErrorKind::{BadCount, BadNumber, Unsupported};
+use crate::product::Product;
 use crate::tolerances::{MAX_LENGTH, MAX_PARTS, MIN_LENGTH};
+
 use crate::{Convex, Core, GeometryError, Polytope, Result};
 
 /// A solid in the frame of its body. Lengths in metres. Made by the constructors, which check their arguments.
@@ -47,6 +49,8 @@ pub enum Shape<const N: usize> {
         /// > 0.
         radius: f64,
     },
+    /// A product of shapes of lower dimension, of which at least one is curved: see [`Shape::product`].
+    Product(Arc<Product<N>>),
     /// The union of parts, each placed by its pose; half-spaces and compounds are not allowed as parts.
     Compound {
         /// At least one.
@@ -166,6 +170,10 @@ impl<const N: usize> Shape<N> {
             Self::HalfSpace { normal, offset } => Self::half_space(normal, offset + radius),
             Self::Rounded { core, radius: inner } => Self::rounded(*core, inner + radius),
             Self::Box { .. } | Self::Polytope(_) => Ok(Self::Rounded { core: Box::new(core), radius }),
+            Self::Product(_) => Err(GeometryError::new(
+                Unsupported,
+                "a product with curved factors cannot be rounded: round its factors instead",
+            )),
             Self::Compound { .. } => {
                 Err(GeometryError::new(Unsupported, "a compound cannot be rounded: round its parts instead"))
             }
@@ -232,6 +240,7 @@ impl<const N: usize> Shape<N> {
                 (Core::Segment { half: Vector::unit(*along) * *half_length }, *radius)
             }
             Self::Polytope(polytope) => (Core::Polytope(Arc::clone(polytope)), 0.0),
+            Self::Product(product) => (Core::Polytope(Arc::clone(product.faceted())), 0.0),
             Self::Rounded { core, radius } => {
                 let (inner, inner_radius) = core.core_and_radius();
                 (inner, inner_radius + radius)

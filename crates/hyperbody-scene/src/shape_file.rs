@@ -111,6 +111,7 @@ impl ShapeSpec {
             }
             Self::Polytope(PolytopeSpec::File(_)) => None,
             Self::Rounded { shape, .. } => shape.dimension(),
+            Self::Product { factors } => Some(factors.iter().map(|factor| factor.axes.chars().count()).sum()),
             Self::Compound { parts } => parts.iter().find_map(|part| {
                 let told = (!part.position.is_empty()).then_some(part.position.len());
                 told.or_else(|| part.shape.dimension())

@@ -3,7 +3,7 @@
 use hyperbody::prelude::Material;
 
 use crate::json::Json;
-use crate::model::{Angle, Body, BodyKind, Joint, Part, PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size};
+use crate::model::{Angle, Body, BodyKind, Factor, Joint, Part, PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size};
 use crate::read::{FORMAT, VERSION};
 
 impl Scene {
@@ -123,6 +123,12 @@ pub(crate) fn shape(shape: &ShapeSpec) -> Json {
         },
         ShapeSpec::Rounded { shape: core, radius } => {
             vec![field("shape", self::shape(core)), field("radius", Json::Number(*radius))]
+        }
+        ShapeSpec::Product { factors } => {
+            let factor = |factor: &Factor| {
+                Json::Object(vec![field("shape", self::shape(&factor.shape)), field("axes", text(&factor.axes))])
+            };
+            vec![field("factors", Json::List(factors.iter().map(factor).collect()))]
         }
         ShapeSpec::Compound { parts } => vec![field("parts", Json::List(parts.iter().map(part).collect()))],
     };

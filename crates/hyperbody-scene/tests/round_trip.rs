@@ -52,6 +52,8 @@ fn everything() -> Scene {
         },
     ];
     scene.bodies.push(Body::new(ShapeSpec::Compound { parts }).named("b"));
+    let product = ShapeSpec::product([(ShapeSpec::ball(0.5), "xw"), (ShapeSpec::cube(2, 0.2), "zy")]);
+    scene.bodies.push(Body::new(product));
     let mut rotor = vec![0.0; 8];
     rotor[0] = 1.0;
     let mut turned = Body::new(ShapeSpec::regular("24-cell", 0.7));

@@ -37,13 +37,13 @@ pub enum Solid<const N: usize> {
 /// A convex body at another place.
 #[derive(Clone, Debug)]
 struct Placed<const N: usize> {
-    convex: Convex<N>,
+    body: Arc<dyn SupportMap<N>>,
     pose: Pose<N>,
 }
 
 impl<const N: usize> SupportMap<N> for Placed<N> {
     fn support(&self, direction: Vector<N>) -> Vector<N> {
-        self.pose.transform_point(self.convex.support(self.pose.rotation.inverse_rotate(direction)))
+        self.pose.transform_point(self.body.support(self.pose.rotation.inverse_rotate(direction)))
     }
 }
 
@@ -52,7 +52,27 @@ impl<const N: usize> Shape<N> {
     /// all faces are found here.
     #[must_use]
     pub fn solids(&self) -> Vec<Solid<N>> {
-        self.pieces().into_iter().map(|(pose, piece)| Solid::from_piece(piece, pose)).collect()
+        let mut solids = Vec::new();
+        self.add_solids(&Pose::IDENTITY, &mut solids);
+        solids
+    }
+
+    fn add_solids(&self, outer_from_shape: &Pose<N>, solids: &mut Vec<Solid<N>>) {
+        match self {
+            Self::Compound { parts } => {
+                for (pose, part) in parts {
+                    part.add_solids(&(*outer_from_shape * *pose), solids);
+                }
+            }
+            Self::Product(product) => {
+                let body: Arc<dyn SupportMap<N>> = Arc::clone(product) as _;
+                solids.push(Solid::Curved(Arc::new(Placed { body, pose: *outer_from_shape })));
+            }
+            _ => {
+                let placed = |(pose, piece)| Solid::from_piece(piece, *outer_from_shape * pose);
+                solids.extend(self.pieces().into_iter().map(placed));
+            }
+        }
     }
 }
 
@@ -80,7 +100,7 @@ impl<const N: usize> Solid<N> {
         match polytope {
             Some(polytope) => Self::Polytope(SectionPolytope::from_polytope(&polytope).placed(&pose)),
             // Boxes thinner than a hull can be come here too.
-            None => Self::Curved(Arc::new(Placed { convex, pose })),
+            None => Self::Curved(Arc::new(Placed { body: Arc::new(convex), pose })),
         }
     }
 
@@ -151,7 +171,7 @@ impl<const N: usize> Solid<N> {
             }
             Self::Ball { centre, radius } => {
                 let convex = Convex { core: Core::Point, radius: *radius };
-                approximate(&Placed { convex, pose: Pose::from_translation(*centre) }, tolerance)
+                approximate(&Placed { body: Arc::new(convex), pose: Pose::from_translation(*centre) }, tolerance)
             }
             Self::Curved(body) => approximate(body.as_ref(), tolerance),
         };

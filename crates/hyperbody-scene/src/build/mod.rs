@@ -1,6 +1,7 @@
 //! From a [`Scene`] to a world: everything that a scene's values have to satisfy is checked here, for scenes from files
 //! as for those made by programs, and every complaint names its place as in a file.
 
+mod product;
 mod rotation;
 mod shape;
 

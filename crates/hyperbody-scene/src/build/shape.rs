@@ -9,7 +9,7 @@ use hyperbody::math::planes::{AXIS_NAMES, axis_from_name};
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::{Polytope, Pose, Shape};
 
-use super::{Result, rotation, shape_error, vector, vector_or_zero};
+use super::{Result, product, rotation, shape_error, vector, vector_or_zero};
 use crate::error::{ErrorKind, SceneError};
 use crate::model::{PolytopeSpec, ShapeSpec, Size};
 use crate::off;
@@ -46,7 +46,7 @@ where
         self.shape_at_depth(spec, path, 0)
     }
 
-    fn shape_at_depth(&mut self, spec: &ShapeSpec, path: &str, depth: usize) -> Result<Shape<N>> {
+    pub(super) fn shape_at_depth(&mut self, spec: &ShapeSpec, path: &str, depth: usize) -> Result<Shape<N>> {
         if depth == MAX_DEPTH {
             let message = format!("shapes lie in shapes more than {MAX_DEPTH} deep; flatten them");
             return Err(SceneError::value(path, message));
@@ -78,6 +78,16 @@ where
             ShapeSpec::Rounded { shape, radius } => {
                 let core = self.shape_at_depth(shape, &format!("{path}.shape"), depth + 1)?;
                 Shape::rounded(core, *radius).map_err(refuse(&path))
+            }
+            ShapeSpec::Product { factors } => {
+                let made: Result<Vec<_>> = factors
+                    .iter()
+                    .enumerate()
+                    .map(|(index, factor)| {
+                        product::factor::<N>(factor, self.folder, &format!("{path}.factors[{index}]"), depth)
+                    })
+                    .collect();
+                Shape::product(made?).map_err(refuse(&path))
             }
             ShapeSpec::Compound { parts } => {
                 let mut placed = Vec::with_capacity(parts.len());
@@ -116,7 +126,7 @@ where
     }
 }
 
-fn axis<const N: usize>(name: &str, path: &str) -> Result<usize> {
+pub(super) fn axis<const N: usize>(name: &str, path: &str) -> Result<usize> {
     let mut letters = name.chars();
     match (letters.next().and_then(|letter| axis_from_name(N, letter)), letters.next()) {
         (Some(axis), None) => Ok(axis),

@@ -8,4 +8,4 @@ mod shape;
 pub use body::{Body, BodyKind, Joint};
 pub use rotation::{Angle, RotationSpec, Turn};
 pub use scene::{DEFAULT_DT, DEFAULT_SUBSTEPS, NamedMaterial, Scene, default_gravity};
-pub use shape::{Part, PolytopeSpec, ShapeSpec, Size};
+pub use shape::{Factor, Part, PolytopeSpec, ShapeSpec, Size};

@@ -43,6 +43,11 @@ pub enum ShapeSpec {
         /// > 0.
         radius: f64,
     },
+    /// A product of shapes of lower dimension.
+    Product {
+        /// Two or more, whose axes are all axes of the scene once.
+        factors: Vec<Factor>,
+    },
     /// The union of parts.
     Compound {
         /// At least one.
@@ -64,6 +69,15 @@ pub enum PolytopeSpec {
     },
     /// An OFF file beside the scene.
     File(String),
+}
+
+/// One factor of a product.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factor {
+    /// What it is, in as many dimensions as it has axes.
+    pub shape: ShapeSpec,
+    /// Names of the axes that are its x, y, … in this order, such as "xw".
+    pub axes: String,
 }
 
 /// One part of a compound.
@@ -108,6 +122,13 @@ impl ShapeSpec {
         Self::Polytope(PolytopeSpec::Regular { name: name.to_owned(), size: Size::Circumradius(circumradius) })
     }
 
+    /// The product of shapes on some of the axes each.
+    #[must_use]
+    pub fn product(factors: impl IntoIterator<Item = (Self, &'static str)>) -> Self {
+        let factor = |(shape, axes): (Self, &str)| Factor { shape, axes: axes.to_owned() };
+        Self::Product { factors: factors.into_iter().map(factor).collect() }
+    }
+
     /// This shape rounded by a radius.
     #[must_use]
     pub fn rounded(self, radius: f64) -> Self {
@@ -124,6 +145,7 @@ impl ShapeSpec {
             Self::Capsule { .. } => "capsule",
             Self::Polytope(_) => "polytope",
             Self::Rounded { .. } => "rounded",
+            Self::Product { .. } => "product",
             Self::Compound { .. } => "compound",
         }
     }

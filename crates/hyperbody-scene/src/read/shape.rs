@@ -3,13 +3,14 @@
 use super::cursor::{At, unknown_key};
 use super::{Result, rotation};
 use crate::error::{ErrorKind, SceneError};
-use crate::model::{Part, PolytopeSpec, RotationSpec, ShapeSpec, Size};
+use crate::model::{Factor, Part, PolytopeSpec, RotationSpec, ShapeSpec, Size};
 
 /// The shapes that this version builds.
-pub(crate) const SHAPES: [&str; 7] = ["ball", "box", "half_space", "capsule", "polytope", "rounded", "compound"];
+pub(crate) const SHAPES: [&str; 8] =
+    ["ball", "box", "half_space", "capsule", "polytope", "rounded", "product", "compound"];
 
 /// Shapes of the format that this version does not build yet.
-const LATER_SHAPES: [&str; 2] = ["product", "mesh"];
+const LATER_SHAPES: [&str; 1] = ["mesh"];
 
 pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
     let (key, inner) = at.variant("the kind of shape", &SHAPES)?;
@@ -37,6 +38,11 @@ pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
             let fields = inner.fields("a rounded shape", &["shape", "radius"])?;
             let core = Box::new(shape(&fields.required("shape")?)?);
             Ok(ShapeSpec::Rounded { shape: core, radius: fields.required("radius")?.number()? })
+        }
+        "product" => {
+            let fields = inner.fields("a product", &["factors"])?;
+            let factors = fields.required("factors")?.list("a list of factors")?;
+            Ok(ShapeSpec::Product { factors: factors.iter().map(factor).collect::<Result<_>>()? })
         }
         "compound" => {
             let fields = inner.fields("a compound", &["parts"])?;
@@ -79,6 +85,11 @@ fn polytope(at: &At<'_>) -> Result<PolytopeSpec> {
             Err(SceneError::structure(&at.path, message))
         }
     }
+}
+
+fn factor(at: &At<'_>) -> Result<Factor> {
+    let fields = at.fields("a factor: an object with \"shape\" and \"axes\"", &["shape", "axes"])?;
+    Ok(Factor { shape: shape(&fields.required("shape")?)?, axes: fields.required("axes")?.text()? })
 }
 
 fn part(at: &At<'_>) -> Result<Part> {

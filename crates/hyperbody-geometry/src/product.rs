@@ -1,0 +1,296 @@
+//! Products of shapes of lower dimension: prisms, duoprisms, cylinders, duocylinders, spherinders.
+//!
+//! A point belongs to A × B if its coordinates on A's axes lie in A and those on B's axes in B. Supports, volumes and
+//! second moments of the factors stand side by side. Products of polytopes are polytopes, with each facet a facet of one
+//! factor times the others. Products with curved factors keep their exact support function, mass and sections; contacts see
+//! them as the product of polytopes that follow the curved factors as closely as [`Product::faceting`] says.
+
+use std::sync::Arc;
+
+use hyperbody_math::{Matrix, Vector};
+
+use crate::error::GeometryErrorKind::{BadCount, Unsupported};
+use crate::mass::MassProperties;
+use crate::polytope::Facet;
+use crate::section::{SupportMap, approximate};
+use crate::shape::Piece;
+use crate::tolerances::{FACETING, MAX_PRODUCT_VERTICES};
+use crate::{Convex, Core, GeometryError, Polytope, Result, Shape};
+
+/// One factor of a product: a convex shape of lower dimension on some of the axes.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    axes: Vec<usize>,
+    /// The core's vertices, one behind the other; the factor is all points at most `radius` away from their hull.
+    corners: Vec<f64>,
+    radius: f64,
+    volume: f64,
+    centre: Vec<f64>,
+    /// By rows, about the centre, at unit density.
+    second_moments: Vec<f64>,
+    /// The factor itself, or a polytope close to it.
+    faceted: Faceted,
+    faceting: f64,
+}
+
+/// A polytope of any dimension from one up.
+#[derive(Clone, Debug)]
+struct Faceted {
+    vertices: Vec<f64>,
+    facets: Vec<FactorFacet>,
+}
+
+#[derive(Clone, Debug)]
+struct FactorFacet {
+    normal: Vec<f64>,
+    offset: f64,
+    vertices: Vec<u32>,
+    neighbours: Vec<u32>,
+}
+
+impl Factor {
+    /// A segment from −`half_length` to `half_length` on one axis.
+    ///
+    /// # Errors
+    /// If the half-length is not a number of metres in the range of lengths.
+    pub fn segment(axis: usize, half_length: f64) -> Result<Self> {
+        Self::new([axis], &Shape::<1>::cuboid([half_length])?)
+    }
+
+    /// A shape of `K` dimensions whose i-th axis is axis `axes[i]` of the product. It has to be convex and bounded.
+    ///
+    /// # Errors
+    /// `Unsupported` for half-spaces, compounds and products; give the factors of a product one by one.
+    pub fn new<const K: usize>(axes: [usize; K], shape: &Shape<K>) -> Result<Self> {
+        let refuse = |what: &str| Err(GeometryError::new(Unsupported, format!("a factor of a product is {what}")));
+        let convex = match shape {
+            Shape::Compound { .. } => return refuse("a compound: make a compound of products instead"),
+            Shape::Product(_) => return refuse("a product: give its factors one by one"),
+            _ => match shape.pieces().pop() {
+                Some((_, Piece::Convex(convex))) => convex,
+                _ => return refuse("a half-space, which has no end: use a long box"),
+            },
+        };
+        let mass = shape.mass_properties(1.0)?;
+        let (faceted, faceting) = Faceted::of_convex(&convex)?;
+        Ok(Self {
+            axes: axes.to_vec(),
+            corners: corners(&convex.core).iter().flat_map(|c| c.0).collect(),
+            radius: convex.radius,
+            volume: mass.mass,
+            centre: mass.centre.iter().collect(),
+            second_moments: mass.second_moments.0.iter().flatten().copied().collect(),
+            faceted,
+            faceting,
+        })
+    }
+
+    /// Puts the farthest point in `direction` into the coordinates that are this factor's.
+    fn support<const N: usize>(&self, direction: Vector<N>, point: &mut Vector<N>) {
+        let along = |corner: &[f64]| self.axes.iter().zip(corner).map(|(&axis, c)| direction[axis] * c).sum::<f64>();
+        let mut best: (&[f64], f64) = (&[], f64::NEG_INFINITY);
+        for corner in self.corners.chunks(self.axes.len()) {
+            let distance = along(corner);
+            if distance > best.1 {
+                best = (corner, distance);
+            }
+        }
+        let own = Vector::<N>::from_fn(|axis| if self.axes.contains(&axis) { direction[axis] } else { 0.0 });
+        let outward = own.normalize_or_zero() * self.radius;
+        for (&axis, &c) in self.axes.iter().zip(best.0) {
+            point[axis] = c + outward[axis];
+        }
+    }
+}
+
+/// The vertices of a core.
+fn corners<const K: usize>(core: &Core<K>) -> Vec<Vector<K>> {
+    match core {
+        Core::Point => vec![Vector::ZERO],
+        Core::Segment { half } => vec![-*half, *half],
+        Core::Box { half_extents } => {
+            let corner =
+                |bits: usize| Vector::from_fn(|i| if bits >> i & 1 == 0 { -half_extents[i] } else { half_extents[i] });
+            (0..1 << K).map(corner).collect()
+        }
+        Core::Polytope(polytope) => polytope.vertices().to_vec(),
+    }
+}
+
+impl Faceted {
+    /// The polytope of a convex shape, and how far the two are apart at most.
+    fn of_convex<const K: usize>(convex: &Convex<K>) -> Result<(Self, f64)> {
+        if K == 1 {
+            let reach = convex.support(Vector::unit(0))[0];
+            let start = convex.support(-Vector::unit(0))[0];
+            let end = |normal: f64, offset: f64, vertex: u32| FactorFacet {
+                normal: vec![normal],
+                offset,
+                vertices: vec![vertex],
+                // They share no face at all.
+                neighbours: Vec::new(),
+            };
+            return Ok((
+                Self { vertices: vec![start, reach], facets: vec![end(-1.0, -start, 0), end(1.0, reach, 1)] },
+                0.0,
+            ));
+        }
+        if convex.radius == 0.0 {
+            let polytope = match &convex.core {
+                Core::Polytope(polytope) => Arc::clone(polytope),
+                core => Arc::new(Polytope::from_points(&corners(core))?),
+            };
+            return Ok((Self::of_polytope(&polytope), 0.0));
+        }
+        // A polytope inside the shape, grown by half of what it may leave out.
+        let error = FACETING[K.min(FACETING.len() - 1)] * convex.bounding_radius();
+        let inner = approximate(convex, error)?;
+        let centre = inner.vertex_mean();
+        let inner = inner.translated(-centre);
+        let inradius = inner.facets().iter().map(|facet| facet.offset).fold(f64::INFINITY, f64::min);
+        let grown = inner.scaled(1.0 + 0.5 * error / inradius)?.translated(centre);
+        let outward = 0.5 * error * grown.bounding_radius() / inradius;
+        Ok((Self::of_polytope(&grown), outward.max(0.5 * error)))
+    }
+
+    fn of_polytope<const K: usize>(polytope: &Polytope<K>) -> Self {
+        let facet = |facet: &Facet<K>| FactorFacet {
+            normal: facet.normal.iter().collect(),
+            offset: facet.offset,
+            vertices: facet.vertices.clone(),
+            neighbours: facet.neighbours.clone(),
+        };
+        Self {
+            vertices: polytope.vertices().iter().flat_map(|v| v.0).collect(),
+            facets: polytope.facets().iter().map(facet).collect(),
+        }
+    }
+}
+
+/// A product with at least one curved factor.
+#[derive(Clone, Debug)]
+pub struct Product<const N: usize> {
+    factors: Vec<Factor>,
+    faceted: Arc<Polytope<N>>,
+    faceting: f64,
+}
+
+impl<const N: usize> SupportMap<N> for Product<N> {
+    fn support(&self, direction: Vector<N>) -> Vector<N> {
+        let mut point = Vector::ZERO;
+        for factor in &self.factors {
+            factor.support(direction, &mut point);
+        }
+        point
+    }
+}
+
+impl<const N: usize> Product<N> {
+    /// The polytope that contacts see.
+    #[must_use]
+    pub fn faceted(&self) -> &Arc<Polytope<N>> {
+        &self.faceted
+    }
+
+    /// How far the surface of that polytope is from that of the product at most, in metres.
+    #[must_use]
+    pub fn faceting(&self) -> f64 {
+        self.faceting
+    }
+
+    /// Mass properties at unit density: volumes multiply, and second moments per volume stand side by side.
+    pub(crate) fn unit_properties(&self) -> MassProperties<N> {
+        let volume: f64 = self.factors.iter().map(|factor| factor.volume).product();
+        let mut centre = Vector::ZERO;
+        let mut second_moments = Matrix::ZERO;
+        for factor in &self.factors {
+            let size = factor.axes.len();
+            for (i, &row) in factor.axes.iter().enumerate() {
+                centre[row] = factor.centre[i];
+                for (j, &column) in factor.axes.iter().enumerate() {
+                    second_moments[row][column] = factor.second_moments[i * size + j] / factor.volume * volume;
+                }
+            }
+        }
+        MassProperties { mass: volume, centre, second_moments }
+    }
+}
+
+impl<const N: usize> Shape<N> {
+    /// The product of shapes of lower dimension, each on axes of its own: a polytope if all factors are, and otherwise a
+    /// [`Shape::Product`].
+    ///
+    /// # Errors
+    /// `BadCount` unless there are two factors or more whose axes are all axes once, or if contacts would need more than
+    /// [`MAX_PRODUCT_VERTICES`] vertices.
+    pub fn product(factors: Vec<Factor>) -> Result<Self> {
+        let mut axes: Vec<usize> = factors.iter().flat_map(|factor| factor.axes.iter().copied()).collect();
+        axes.sort_unstable();
+        if factors.len() < 2 || axes != (0..N).collect::<Vec<_>>() {
+            return Err(GeometryError::new(
+                BadCount,
+                format!(
+                    "a product has {} factors on the axes {axes:?}: it needs two or more, whose axes are 0 to {} once each",
+                    factors.len(),
+                    N - 1
+                ),
+            ));
+        }
+        let polytope = Arc::new(multiply::<N>(&factors)?);
+        let faceting = factors.iter().map(|factor| factor.faceting).fold(0.0, f64::max);
+        if factors.iter().all(|factor| factor.faceting == 0.0) {
+            return Self::polytope(polytope);
+        }
+        Ok(Self::Product(Arc::new(Product { factors, faceted: polytope, faceting })))
+    }
+}
+
+/// The product of the factors' polytopes. Vertex numbers count through the factors, the first one fastest.
+fn multiply<const N: usize>(factors: &[Factor]) -> Result<Polytope<N>> {
+    let counts: Vec<usize> = factors.iter().map(|f| f.faceted.vertices.len() / f.axes.len()).collect();
+    let total = counts.iter().fold(1_usize, |product, &count| product.saturating_mul(count));
+    if total > MAX_PRODUCT_VERTICES {
+        return Err(GeometryError::new(
+            BadCount,
+            format!(
+                "a product of factors with {counts:?} vertices would have {total}: the limit is {MAX_PRODUCT_VERTICES}"
+            ),
+        ));
+    }
+    let vertex = |mut number: usize| {
+        let mut point = Vector::<N>::ZERO;
+        for (factor, &count) in factors.iter().zip(&counts) {
+            let size = factor.axes.len();
+            let own = &factor.faceted.vertices[number % count * size..];
+            factor.axes.iter().zip(own).for_each(|(&axis, &c)| point[axis] = c);
+            number /= count;
+        }
+        point
+    };
+    let vertices: Vec<Vector<N>> = (0..total).map(vertex).collect();
+    let first_facet = |index: usize| factors[..index].iter().map(|f| f.faceted.facets.len()).sum::<usize>();
+    let facet_total = first_facet(factors.len()) as u32;
+    let mut facets: Vec<Facet<N>> = Vec::new();
+    for (index, factor) in factors.iter().enumerate() {
+        let step: usize = counts[..index].iter().product();
+        let own = first_facet(index) as u32..first_facet(index + 1) as u32;
+        for facet in &factor.faceted.facets {
+            let mut normal = Vector::ZERO;
+            factor.axes.iter().zip(&facet.normal).for_each(|(&axis, &c)| normal[axis] = c);
+            let holds = |number: &u32| {
+                facet.vertices.binary_search(&((*number as usize / step % counts[index]) as u32)).is_ok()
+            };
+            let beside = facet.neighbours.iter().map(|neighbour| own.start + neighbour);
+            let mut neighbours: Vec<u32> =
+                (0..facet_total).filter(|other| !own.contains(other)).chain(beside).collect();
+            neighbours.sort_unstable();
+            facets.push(Facet {
+                normal,
+                offset: facet.offset,
+                vertices: (0..total as u32).filter(holds).collect(),
+                neighbours,
+            });
+        }
+    }
+    Ok(Polytope::from_parts(vertices, facets))
+}
