@@ -10,6 +10,7 @@
 //! 4 0 1 4 7             3-faces: number of 2-faces, 2-faces; and so on up to the facets
 //! ```
 
+mod boundary;
 mod read;
 
 use std::fmt;
@@ -113,7 +114,8 @@ impl OffFile {
     }
 
     /// Number of different edges of the 2-faces.
-    fn edge_count(&self) -> usize {
+    #[must_use]
+    pub fn edge_count(&self) -> usize {
         let mut edges: Vec<(u32, u32)> = Vec::new();
         for face in self.elements(2) {
             for (k, &a) in face.iter().enumerate() {

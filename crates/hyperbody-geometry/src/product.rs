@@ -60,7 +60,8 @@ impl Factor {
     /// A shape of `K` dimensions whose i-th axis is axis `axes[i]` of the product. It has to be convex and bounded.
     ///
     /// # Errors
-    /// `Unsupported` for half-spaces, compounds and products; give the factors of a product one by one.
+    /// `Unsupported` for half-spaces, compounds and products (give the factors of a product one by one), and for curved shapes
+    /// of more than four dimensions, which contacts would need too many facets for.
     pub fn new<const K: usize>(axes: [usize; K], shape: &Shape<K>) -> Result<Self> {
         let refuse = |what: &str| Err(GeometryError::new(Unsupported, format!("a factor of a product is {what}")));
         let convex = match shape {
@@ -143,7 +144,13 @@ impl Faceted {
             return Ok((Self::of_polytope(&polytope), 0.0));
         }
         // A polytope inside the shape, grown by half of what it may leave out.
-        let error = FACETING[K.min(FACETING.len() - 1)] * convex.bounding_radius();
+        let Some(part) = FACETING.get(K) else {
+            let most = FACETING.len() - 1;
+            let message =
+                format!("a curved factor of a product has {K} dimensions: the limit is {most}; use a polytope");
+            return Err(GeometryError::new(Unsupported, message));
+        };
+        let error = part * convex.radius;
         let inner = approximate(convex, error)?;
         let centre = inner.vertex_mean();
         let inner = inner.translated(-centre);

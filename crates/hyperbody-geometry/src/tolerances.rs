@@ -56,8 +56,8 @@ pub(crate) const MIN_CLIMBING_VERTICES: usize = 48;
 pub const MAX_POLYGON: usize = 10_000;
 
 /// How far a curved factor of a product, by its dimension, may be from the polytope that contacts see in its place, in parts
-/// of its size. In the plane that is a 32-gon; in more dimensions the number of facets would grow too fast for that.
-pub(crate) const FACETING: [f64; 6] = [0.0, 0.0, 0.005, 0.01, 0.03, 0.06];
+/// of its radius. In the plane that is a 32-gon; in more dimensions the number of facets would grow too fast for that.
+pub(crate) const FACETING: [f64; 5] = [0.0, 0.0, 0.005, 0.01, 0.03];
 
 /// Most vertices of a product: finding the edges takes time with the square of it, seconds here.
 pub const MAX_PRODUCT_VERTICES: usize = 4096;

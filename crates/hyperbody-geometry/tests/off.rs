@@ -142,7 +142,7 @@ fn broken_files_never_panic() {
                 check(&text[..length]);
             }
         }
-        for _ in 0..400 {
+        for _ in 0..3_400 {
             let mut bytes = text.as_bytes().to_vec();
             for _ in 0..=random.below(4) {
                 let at = random.below(bytes.len());

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use hyperbody::geometry::MassProperties;
 use hyperbody::geometry::off::{OffFile, parse};
 use hyperbody::prelude::Polytope;
 
@@ -34,6 +35,27 @@ pub(crate) fn polytope<const N: usize>(text: &str, path: &str) -> Result<Polytop
         return Err(SceneError::new(ErrorKind::Unsupported, path, message));
     }
     Ok(polytope)
+}
+
+/// Numbers of vertices, edges, …, facets of a file that lists them, and the mass properties at unit density of what its surface
+/// bounds; `None` if it is the surface of a convex polytope, or only vertices.
+///
+/// # Errors
+/// If the file breaks the rules of the format, is of another dimension, or its surface is open or cannot be oriented.
+pub(crate) fn mesh<const N: usize>(text: &str, path: &str) -> Result<Option<(Vec<usize>, MassProperties<N>)>> {
+    let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
+    let file = read(text, path)?;
+    let (Ok(hull), Some(points)) = (file.to_polytope::<N>(), file.vertices::<N>()) else {
+        return Ok(None);
+    };
+    if facet_inside_the_hull(&file, &hull).is_none() {
+        return Ok(None);
+    }
+    let surface = file.boundary::<N>().map_err(refuse)?;
+    let properties = MassProperties::of_closed_boundary(&points, &surface).map_err(refuse)?;
+    let mut counts = vec![file.vertex_count(), file.edge_count()];
+    counts.extend((2..N).map(|rank| file.elements(rank).len()));
+    Ok(Some((counts, properties)))
 }
 
 /// The number of the first listed facet that does not lie within one facet of the hull. A closed surface without one is the
@@ -105,11 +127,16 @@ mod tests {
     }
 
     #[test]
-    fn a_dented_surface_is_refused() {
+    fn a_dented_surface_is_refused_as_a_body_and_weighed_as_a_mesh() {
         // A square pyramid whose apex is pushed in through the base plane of a second one: an arrow head.
         let dented = "OFF\n5 6 9\n1 0 0\n-0.5 0.9 0\n-0.5 -0.9 0\n0 0 1\n0 0 0.3\n\
                       3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 4 1\n3 1 4 2\n3 2 4 0\n";
         let error = polytope::<3>(dented, "bodies[0]").unwrap_err();
         assert!(error.to_string().contains("bodies[0]: is not convex: facet 3"), "{error}");
+        let (counts, properties) = mesh::<3>(dented, "").unwrap().unwrap();
+        assert_eq!(counts, [5, 9, 6]);
+        // A pyramid of height 1 without one of height 0.3 over the same triangle.
+        assert!((properties.mass - 0.7 * 1.35 / 3.0).abs() < 1e-14, "{}", properties.mass);
+        assert!(mesh::<3>(&dented.replace("0 0 0.3", "0 0 -0.3"), "").unwrap().is_none());
     }
 }

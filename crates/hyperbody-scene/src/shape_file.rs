@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hyperbody::geometry::MassProperties;
 use hyperbody::geometry::regular::Regular;
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::Shape;
@@ -75,6 +76,19 @@ impl ShapeFile {
             return refuse(format!("holds a shape of {dimension} dimensions; there are shapes of 2 to 6"));
         }
         Ok(Self { dimension, shape, closed, file: path.to_path_buf() })
+    }
+
+    /// Numbers of vertices, edges, …, facets, and mass properties at unit density, of an OFF file whose surface is not convex:
+    /// such a file makes no body yet. `None` for all other files. `N` has to be [`ShapeFile::dimension`].
+    ///
+    /// # Errors
+    /// If the surface is open or cannot be oriented.
+    pub fn mesh<const N: usize>(&self) -> Result<Option<(Vec<usize>, MassProperties<N>)>> {
+        if !is_off(&self.file) {
+            return Ok(None);
+        }
+        let text = read_text(&self.file, MAX_FILE_BYTES)?;
+        off::mesh::<N>(&text, "").map_err(|error| error.in_file(Some(&self.file)))
     }
 
     /// The shape, in `N` dimensions; `N` has to be [`ShapeFile::dimension`].

@@ -1,6 +1,6 @@
 //! Mass properties and face counts of one shape.
 
-use hyperbody::geometry::FaceLattice;
+use hyperbody::geometry::{FaceLattice, MassProperties};
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::Shape;
 use hyperbody_scene::{DimensionVisitor, ShapeFile, visit_dimension};
@@ -38,19 +38,27 @@ impl DimensionVisitor for Visit<'_> {
     where
         Dim<N>: EvenAlgebra,
     {
+        if let Some((faces, mass)) = self.0.mesh::<N>()? {
+            return Ok(of_mass(faces, &mass, false, self.0.closed));
+        }
         let shape = self.0.build::<N>()?;
         let mass = shape.mass_properties(1.0).map_err(|error| Failure::Input(error.to_string()))?;
-        let (principal, _) = mass.principal();
-        Ok(Report {
-            dimension: N,
-            faces: face_counts(&shape),
-            volume: mass.mass,
-            centroid: mass.centre.iter().collect(),
-            second_moments: (0..N).map(|row| mass.second_moments.row(row).iter().collect()).collect(),
-            principal_moments: principal.iter().map(|moment| moment / mass.mass).collect(),
-            convex: !matches!(&shape, Shape::Compound { parts } if parts.len() > 1),
-            closed: self.0.closed,
-        })
+        let convex = !matches!(&shape, Shape::Compound { parts } if parts.len() > 1);
+        Ok(of_mass(face_counts(&shape), &mass, convex, self.0.closed))
+    }
+}
+
+fn of_mass<const N: usize>(faces: Vec<usize>, mass: &MassProperties<N>, convex: bool, closed: bool) -> Report {
+    let (principal, _) = mass.principal();
+    Report {
+        dimension: N,
+        faces,
+        volume: mass.mass,
+        centroid: mass.centre.iter().collect(),
+        second_moments: (0..N).map(|row| mass.second_moments.row(row).iter().collect()).collect(),
+        principal_moments: principal.iter().map(|moment| moment / mass.mass).collect(),
+        convex,
+        closed,
     }
 }
 
