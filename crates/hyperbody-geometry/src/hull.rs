@@ -18,7 +18,7 @@
 
 mod kernel;
 mod merge;
-mod plane;
+pub(crate) mod plane;
 mod quickhull;
 mod wide;
 

@@ -11,6 +11,7 @@
 //! | [`regular`] | the regular polytopes by name |
 //! | [`off`] | OFF files |
 //! | [`section`] | [`SectionPolytope`]: sections by hyperplanes |
+//! | [`decompose`] | [`convex_cells`](decompose::convex_cells): convex cells of solids that are not convex |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`volume`] | volumes of balls |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
@@ -20,6 +21,7 @@
 
 pub mod aabb;
 pub mod convex;
+pub mod decompose;
 pub mod error;
 pub mod face_lattice;
 pub mod hull;

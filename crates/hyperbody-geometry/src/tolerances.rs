@@ -41,6 +41,12 @@ pub const FLATNESS: f64 = 1e-8;
 /// hundreds of times what rounding does to a vertex and a frame, and far below anything that can be seen or held.
 pub const SECTION_TOLERANCE: f64 = 1e-12;
 
+/// Most cuts when a solid is cut into convex cells: every cell is a piece that collides on its own.
+pub const MAX_CELLS: usize = 4096;
+
+/// Most cells among which pairs are sought that can be joined: all pairs are tried, each with a hull.
+pub(crate) const MAX_JOINED_CELLS: usize = 128;
+
 /// Most points of a hull: their indices and distances must fit into memory without a second thought.
 pub const MAX_HULL_POINTS: usize = 1 << 22;
 

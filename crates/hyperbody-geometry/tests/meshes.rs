@@ -3,6 +3,7 @@
 mod common;
 
 use common::Random;
+use hyperbody_geometry::decompose::convex_cells;
 use hyperbody_geometry::regular::{Size, polytope};
 use hyperbody_geometry::{GeometryErrorKind, MassProperties, OffFile, off};
 use hyperbody_math::{Matrix, Vector};
@@ -107,6 +108,16 @@ fn grid_file<const N: usize>(filled: &dyn Fn([usize; N]) -> bool) -> (String, Ve
     (text, cells)
 }
 
+/// The convex cells of a solid fill it: they add up to its moments, and are no more than its cubes.
+fn check_cells<const N: usize>(file: &OffFile, surface: &[[u32; N]], expected: &MassProperties<N>, cubes: usize) {
+    let cells = convex_cells(&file.vertices::<N>().unwrap(), surface).unwrap();
+    let parts: Vec<MassProperties<N>> = cells.iter().map(MassProperties::of_polytope).collect();
+    let sum = MassProperties::combined(&parts).unwrap();
+    assert!((sum.mass / expected.mass - 1.0).abs() < 1e-9, "{} for {}", sum.mass, expected.mass);
+    assert!((sum.second_moments - expected.second_moments).max_abs() < 1e-9 * expected.second_moments.max_abs());
+    assert!(cells.len() <= cubes, "{} cells for {cubes} cubes", cells.len());
+}
+
 /// Bodies of unit cubes: L, U and ring shapes, and at random. Their moments are sums over the cubes.
 fn bodies_of_cubes<const N: usize>() {
     let mut random = Random(70 + N as u64);
@@ -135,7 +146,11 @@ fn bodies_of_cubes<const N: usize>() {
             centre: Vector::from_fn(|i| cell[i] as f64 + 0.5),
             second_moments: Matrix::IDENTITY * (1.0 / 12.0),
         };
-        assert_same(&found, &MassProperties::combined(&cells.iter().map(cube).collect::<Vec<_>>()).unwrap());
+        let expected = MassProperties::combined(&cells.iter().map(cube).collect::<Vec<_>>()).unwrap();
+        assert_same(&found, &expected);
+        if N == 3 || case < 6 {
+            check_cells(&file, &surface, &expected, cells.len());
+        }
         checked += 1;
     }
     assert!(checked >= 4, "only {checked}");

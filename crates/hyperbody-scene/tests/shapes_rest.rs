@@ -35,7 +35,9 @@ fn shapes(dimension: usize) -> Vec<ShapeSpec> {
                 .push(ShapeSpec::product([(ShapeSpec::capsule(0.3, 0.3, "x"), "xyz"), (ShapeSpec::cube(1, 0.4), "w")]));
             let points =
                 [[0.0; 4], [0.8, 0.1, 0.0, 0.2], [0.0, 0.9, 0.1, 0.0], [0.1, 0.0, 0.7, 0.1], [0.0, 0.2, 0.1, 0.8]];
-            shapes.push(ShapeSpec::Polytope(PolytopeSpec::Vertices(points.map(Vec::from).to_vec())));
+            shapes.push(ShapeSpec::Polytope(PolytopeSpec::Vertices(
+                points.map(|p| p.map(|c| c - 0.2).to_vec()).to_vec(),
+            )));
         }
         5 => shapes.push(ShapeSpec::product([(ShapeSpec::cube(3, 0.4), "xyz"), (ShapeSpec::ball(0.5), "wv")])),
         _ => {}

@@ -48,6 +48,11 @@ pub enum ShapeSpec {
         /// Two or more, whose axes are all axes of the scene once.
         factors: Vec<Factor>,
     },
+    /// What the surface in an OFF file beside the scene bounds, convex or not.
+    Mesh {
+        /// The file.
+        file: String,
+    },
     /// The union of parts.
     Compound {
         /// At least one.
@@ -146,6 +151,7 @@ impl ShapeSpec {
             Self::Polytope(_) => "polytope",
             Self::Rounded { .. } => "rounded",
             Self::Product { .. } => "product",
+            Self::Mesh { .. } => "mesh",
             Self::Compound { .. } => "compound",
         }
     }

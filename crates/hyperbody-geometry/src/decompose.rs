@@ -1,0 +1,212 @@
+//! Convex cells of a solid that is not convex, in any dimension.
+//!
+//! The hull of the solid is cut by the hyperplane of a piece of its surface that passes through the inside of a cell, and so on
+//! in both halves until no surface passes through any cell: a binary space partition (H. Fuchs, Z. Kedem, B. Naylor, 1980).
+//! Then each cell is all inside or all outside, which the winding number of the surface around its middle tells. Nothing of
+//! this knows the dimension, and every step works on convex polytopes, where hulls are robust. Neighbouring cells whose
+//! union is convex are joined again, because a partition cuts more than it has to.
+//!
+//! Decompositions that only come close to the solid (as K. Mamou's V-HACD does in 3D) make fewer pieces, but other bodies.
+
+use hyperbody_math::{Matrix, Vector};
+
+use crate::error::GeometryErrorKind::{BadCount, BadMesh};
+use crate::hull::plane::Hyperplane;
+use crate::mass::MassProperties;
+use crate::tolerances::{MAX_CELLS, MAX_JOINED_CELLS};
+use crate::{GeometryError, Polytope, Result};
+
+/// Lengths below this, in parts of the size of the solid, are none.
+const TOLERANCE: f64 = 1e-9;
+
+/// How many pieces of surface are tried for the one whose hyperplane cuts the fewest others.
+const CANDIDATES: usize = 8;
+
+/// Convex polytopes that fill the solid bounded by `surface` without overlapping: simplices of `N` points with neighbours
+/// oriented alike, such as [`OffFile::boundary`](crate::OffFile::boundary) gives. Regions around which the surface winds
+/// more than once count once.
+///
+/// # Errors
+/// `BadMesh` or as [`MassProperties::of_closed_boundary`] if the surface is not closed; `BadCount` if more than
+/// [`MAX_CELLS`] cells are needed; as [`Polytope::from_points`] if the solid is flat.
+pub fn convex_cells<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]]) -> Result<Vec<Polytope<N>>> {
+    let whole = MassProperties::of_closed_boundary(points, surface)?;
+    let used: Vec<Vector<N>> = surface.iter().flatten().map(|&v| points[v as usize]).collect();
+    let hull = Polytope::from_points(&used)?;
+    let size = hull.translated(-hull.vertex_mean()).bounding_radius();
+    let tolerance = TOLERANCE * size;
+    let pieces: Vec<[Vector<N>; N]> = surface.iter().map(|simplex| simplex.map(|v| points[v as usize])).collect();
+    let all: Vec<Wall<N>> = pieces.iter().filter_map(|corners| Wall::new(*corners)).collect();
+    let mut waiting: Vec<(Polytope<N>, Vec<usize>)> = vec![(hull, (0..all.len()).collect())];
+    let mut cells = Vec::new();
+    let mut cuts = 0;
+    while let Some((cell, near)) = waiting.pop() {
+        let crossing: Vec<usize> = near.into_iter().filter(|&wall| all[wall].passes(&cell, tolerance)).collect();
+        let Some(plane) = best_plane(&all, &crossing, tolerance) else {
+            if winding_number(&pieces, cell.vertex_mean())? != 0 {
+                cells.push(cell);
+            }
+            continue;
+        };
+        cuts += 1;
+        if cuts > MAX_CELLS {
+            let message = format!("the solid would take more than {MAX_CELLS} convex cells: use a simpler mesh");
+            return Err(GeometryError::new(BadCount, message));
+        }
+        let halves = [clip(&cell, &plane, tolerance), clip(&cell, &plane.flipped(), tolerance)];
+        waiting.extend(halves.into_iter().flatten().map(|half| (half, crossing.clone())));
+    }
+    let cells = join(cells, tolerance);
+    let content: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+    // Surfaces that wind more than once bound more than they fill.
+    if cells.is_empty() || content > whole.mass * (1.0 + 1e-6) {
+        return Err(GeometryError::new(BadMesh, "the surface crosses itself in a way that leaves no clear inside".to_string()));
+    }
+    Ok(cells)
+}
+
+/// A simplex of the surface.
+struct Wall<const N: usize> {
+    corners: [Vector<N>; N],
+    plane: Hyperplane<N>,
+    /// Through each side of the simplex along the normal; the simplex is below all of them.
+    sides: Vec<Hyperplane<N>>,
+}
+
+impl<const N: usize> Wall<N> {
+    /// `None` if it has no area.
+    fn new(corners: [Vector<N>; N]) -> Option<Self> {
+        let plane = Hyperplane::through(&corners)?;
+        let size = corners.iter().map(|c| c.distance(corners[0])).fold(0.0, f64::max);
+        let mut sides = Vec::with_capacity(N);
+        for opposite in 0..N {
+            // The corner itself moves to stand over another one.
+            let mut through = corners;
+            through[opposite] = corners[(opposite + 1) % N] + plane.normal * size;
+            let side = Hyperplane::through(&through)?;
+            sides.push(if side.distance(corners[opposite]) > 0.0 { side.flipped() } else { side });
+        }
+        Some(Self { corners, plane, sides })
+    }
+
+    /// Whether the wall passes through the inside of a cell.
+    fn passes(&self, cell: &Polytope<N>, tolerance: f64) -> bool {
+        let outside = |normal: Vector<N>, offset: f64| self.corners.iter().all(|c| normal.dot(*c) - offset > -tolerance);
+        if !divides(&self.plane, cell, tolerance) || cell.facets().iter().any(|f| outside(f.normal, f.offset)) {
+            return false;
+        }
+        let mut rest = cell.clone();
+        for side in &self.sides {
+            match clip(&rest, side, tolerance) {
+                Some(clipped) => rest = clipped,
+                None => return false,
+            }
+        }
+        divides(&self.plane, &rest, tolerance)
+    }
+}
+
+/// Whether a polytope has points clearly on both sides.
+fn divides<const N: usize>(plane: &Hyperplane<N>, cell: &Polytope<N>, tolerance: f64) -> bool {
+    let heights = || cell.vertices().iter().map(|&v| plane.distance(v));
+    heights().any(|h| h > tolerance) && heights().any(|h| h < -tolerance)
+}
+
+/// Of a few hyperplanes the one that cuts the fewest other walls.
+fn best_plane<const N: usize>(all: &[Wall<N>], crossing: &[usize], tolerance: f64) -> Option<Hyperplane<N>> {
+    let step = crossing.len().div_ceil(CANDIDATES).max(1);
+    let cost = |plane: &Hyperplane<N>| {
+        let cut = |&&wall: &&usize| {
+            let heights = || all[wall].corners.iter().map(|&c| plane.distance(c));
+            heights().any(|h| h > tolerance) && heights().any(|h| h < -tolerance)
+        };
+        crossing.iter().filter(cut).count()
+    };
+    crossing.iter().step_by(step).map(|&wall| all[wall].plane).min_by_key(cost)
+}
+
+/// The part of a polytope below a hyperplane; `None` if it is flat or empty.
+fn clip<const N: usize>(cell: &Polytope<N>, plane: &Hyperplane<N>, tolerance: f64) -> Option<Polytope<N>> {
+    let heights: Vec<f64> = cell.vertices().iter().map(|&v| plane.distance(v)).collect();
+    if heights.iter().all(|&h| h <= tolerance) {
+        return heights.iter().any(|&h| h < -tolerance).then(|| cell.clone());
+    }
+    let mut kept: Vec<Vector<N>> = Vec::new();
+    for (vertex, &height) in heights.iter().enumerate() {
+        let point = cell.vertices()[vertex];
+        if height <= tolerance {
+            kept.push(point);
+        }
+        for &other in cell.neighbours_of_vertex(vertex) {
+            let other_height = heights[other as usize];
+            if height < -tolerance && other_height > tolerance {
+                kept.push(point.lerp(cell.vertices()[other as usize], height / (height - other_height)));
+            }
+        }
+    }
+    if heights.iter().any(|&h| h < -tolerance) { Polytope::from_points(&kept).ok() } else { None }
+}
+
+/// How often the surface winds around a point that is not on it: signed crossings of a ray.
+fn winding_number<const N: usize>(pieces: &[[Vector<N>; N]], point: Vector<N>) -> Result<i32> {
+    // Directions that no mesh is likely to be aligned with; where a ray meets an edge, the next one is taken.
+    for attempt in 1..=16 {
+        let direction = Vector::from_fn(|axis| {
+            let turn = f64::from(attempt) * 0.618_033_988_749_895 + axis as f64 * 0.754_877_666_246_693;
+            turn.fract() - 0.5
+        });
+        let mut winding = Some(0);
+        for corners in pieces {
+            let m = Matrix::from_columns(corners.map(|c| c - point));
+            // p + t·direction = Σ w_i c_i with Σ w_i = 1: the weights divided by t.
+            let Some(weights) = m.solve(direction) else { continue };
+            let least = weights.iter().fold(f64::INFINITY, f64::min);
+            if least.abs() <= 1e-9 * weights.max_abs() {
+                winding = None;
+                break;
+            }
+            if least > 0.0 {
+                winding = winding.map(|count| count + if m.determinant() > 0.0 { 1 } else { -1 });
+            }
+        }
+        if let Some(winding) = winding {
+            return Ok(winding);
+        }
+    }
+    Err(GeometryError::new(BadMesh, format!("the surface passes through {:?}, where a cell should be", point.0)))
+}
+
+/// Joins cells whose union is convex, as long as there are few enough to try all pairs.
+fn join<const N: usize>(mut cells: Vec<Polytope<N>>, tolerance: f64) -> Vec<Polytope<N>> {
+    if cells.len() > MAX_JOINED_CELLS {
+        return cells;
+    }
+    let mut contents: Vec<f64> = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).collect();
+    let mut first = 0;
+    while first < cells.len() {
+        let union = (first + 1..cells.len()).find_map(|second| {
+            // Cells that share a facet share corners there, to rounding; other pairs need no hull.
+            let near = tolerance * 10.0;
+            let shares = |v: &Vector<N>| cells[second].vertices().iter().any(|w| v.distance(*w) <= near);
+            if !cells[first].vertices().iter().any(shares) {
+                return None;
+            }
+            let points = [cells[first].vertices(), cells[second].vertices()].concat();
+            let hull = Polytope::from_points(&points).ok()?;
+            let content = MassProperties::of_polytope(&hull).mass;
+            let sum = contents[first] + contents[second];
+            (content <= sum * (1.0 + 1e-9)).then_some((second, hull, content))
+        });
+        match union {
+            Some((second, hull, content)) => {
+                (cells[first], contents[first]) = (hull, content);
+                cells.remove(second);
+                contents.remove(second);
+                // The larger cell may now fit one that the smaller did not.
+                first = 0;
+            }
+            None => first += 1,
+        }
+    }
+    cells
+}
