@@ -41,7 +41,7 @@ const STRUCTURE: &[Case] = &[
         "{\"product\": {\"factors\": [{\"shape\": {\"ball\": {\"radius\": 0.5}}, \"axes\": \"xq\"}]}}",
         &["bodies[2].shape.product.factors[0].axes", "unknown axis \"q\""],
     ),
-    ("{\"ball\": {\"radius\": 0.5}}", "{\"mesh\": {\"file\": \"a.off\"}}", &["\"mesh\"", "not supported yet"]),
+    ("{\"ball\": {\"radius\": 0.5}}", "{\"mesh\": {\"file\": \"a.off\"}}", &["bodies[2].shape.mesh.file", "a.off"]),
     ("\"ball\": {\"a\"", "\"hinge\": {\"a\"", &["joints[0]", "\"hinge\"", "not supported yet", "ball"]),
     ("\"ball\": {\"a\"", "\"bal\": {\"a\"", &["joints[0]", "\"bal\"", "nearest known one is \"ball\""]),
     ("\"dimension\": 4,", "", &["no \"dimension\""]),

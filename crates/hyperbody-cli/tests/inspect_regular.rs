@@ -18,7 +18,8 @@ fn check(dimension: usize, name: &str, faces: &[u64], volume: f64, moment: f64) 
     let path = file(&format!("regular/{dimension}-{name}.json"), text);
     let path = path.to_str().expect("UTF-8");
     let report = json_of(&["inspect", path, "--dimension", &dimension.to_string(), "--json"]);
-    let counts: Vec<u64> = report["faces"].as_array().expect("a list").iter().filter_map(serde_json::Value::as_u64).collect();
+    let counts: Vec<u64> =
+        report["faces"].as_array().expect("a list").iter().filter_map(serde_json::Value::as_u64).collect();
     assert_eq!(counts, faces, "{name}");
     let found = report["volume"].as_f64().expect("a number");
     assert!((found / volume - 1.0).abs() < 1e-10, "{name}: volume {found} for {volume}");

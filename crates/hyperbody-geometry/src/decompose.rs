@@ -60,7 +60,10 @@ pub fn convex_cells<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]]) 
     let content: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
     // Surfaces that wind more than once bound more than they fill.
     if cells.is_empty() || content > whole.mass * (1.0 + 1e-6) {
-        return Err(GeometryError::new(BadMesh, "the surface crosses itself in a way that leaves no clear inside".to_string()));
+        return Err(GeometryError::new(
+            BadMesh,
+            "the surface crosses itself in a way that leaves no clear inside".to_string(),
+        ));
     }
     Ok(cells)
 }
@@ -91,7 +94,8 @@ impl<const N: usize> Wall<N> {
 
     /// Whether the wall passes through the inside of a cell.
     fn passes(&self, cell: &Polytope<N>, tolerance: f64) -> bool {
-        let outside = |normal: Vector<N>, offset: f64| self.corners.iter().all(|c| normal.dot(*c) - offset > -tolerance);
+        let outside =
+            |normal: Vector<N>, offset: f64| self.corners.iter().all(|c| normal.dot(*c) - offset > -tolerance);
         if !divides(&self.plane, cell, tolerance) || cell.facets().iter().any(|f| outside(f.normal, f.offset)) {
             return false;
         }

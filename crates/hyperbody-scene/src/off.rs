@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use hyperbody::geometry::MassProperties;
+use hyperbody::geometry::decompose::convex_cells;
 use hyperbody::geometry::off::{OffFile, parse};
 use hyperbody::prelude::Polytope;
 
@@ -30,7 +31,7 @@ pub(crate) fn polytope<const N: usize>(text: &str, path: &str) -> Result<Polytop
     if let Some(facet) = facet_inside_the_hull(&file, &polytope) {
         let message = format!(
             "is not convex: facet {facet} of the file does not lie in the boundary of its hull; shapes that are not convex \
-             are not supported yet by this version, so split it into convex parts of a compound"
+             are meshes, so use \"mesh\" in place of \"polytope\""
         );
         return Err(SceneError::new(ErrorKind::Unsupported, path, message));
     }
@@ -56,6 +57,22 @@ pub(crate) fn mesh<const N: usize>(text: &str, path: &str) -> Result<Option<(Vec
     let mut counts = vec![file.vertex_count(), file.edge_count()];
     counts.extend((2..N).map(|rank| file.elements(rank).len()));
     Ok(Some((counts, properties)))
+}
+
+/// Convex cells of what the surface in a file bounds; the hull for files with vertices only.
+///
+/// # Errors
+/// If the file breaks the rules of the format, is of another dimension, flat, or its surface is open, crosses itself or cannot
+/// be oriented.
+pub(crate) fn cells<const N: usize>(text: &str, path: &str) -> Result<Vec<Polytope<N>>> {
+    let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
+    let file = read(text, path)?;
+    let hull = file.to_polytope::<N>().map_err(refuse)?;
+    if facet_inside_the_hull(&file, &hull).is_none() {
+        return Ok(vec![hull]);
+    }
+    let points = file.vertices::<N>().unwrap_or_default();
+    convex_cells(&points, &file.boundary::<N>().map_err(refuse)?).map_err(refuse)
 }
 
 /// The number of the first listed facet that does not lie within one facet of the hull. A closed surface without one is the
@@ -135,6 +152,13 @@ mod tests {
         assert!(error.to_string().contains("bodies[0]: is not convex: facet 3"), "{error}");
         let (counts, properties) = mesh::<3>(dented, "").unwrap().unwrap();
         assert_eq!(counts, [5, 9, 6]);
+        let cells = cells::<3>(dented, "").unwrap();
+        let content: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+        assert!(
+            cells.len() <= 3 && (content / properties.mass - 1.0).abs() < 1e-12,
+            "{} cells of {content}",
+            cells.len()
+        );
         // A pyramid of height 1 without one of height 0.3 over the same triangle.
         assert!((properties.mass - 0.7 * 1.35 / 3.0).abs() < 1e-14, "{}", properties.mass);
         assert!(mesh::<3>(&dented.replace("0 0 0.3", "0 0 -0.3"), "").unwrap().is_none());

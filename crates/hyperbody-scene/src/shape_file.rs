@@ -123,7 +123,7 @@ impl ShapeSpec {
                 let first = known.next();
                 first.filter(|_| known.next().is_none())
             }
-            Self::Polytope(PolytopeSpec::File(_)) => None,
+            Self::Polytope(PolytopeSpec::File(_)) | Self::Mesh { .. } => None,
             Self::Rounded { shape, .. } => shape.dimension(),
             Self::Product { factors } => Some(factors.iter().map(|factor| factor.axes.chars().count()).sum()),
             Self::Compound { parts } => parts.iter().find_map(|part| {

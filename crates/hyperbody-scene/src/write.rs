@@ -124,6 +124,7 @@ pub(crate) fn shape(shape: &ShapeSpec) -> Json {
         ShapeSpec::Rounded { shape: core, radius } => {
             vec![field("shape", self::shape(core)), field("radius", Json::Number(*radius))]
         }
+        ShapeSpec::Mesh { file } => vec![field("file", text(file))],
         ShapeSpec::Product { factors } => {
             let factor = |factor: &Factor| {
                 Json::Object(vec![field("shape", self::shape(&factor.shape)), field("axes", text(&factor.axes))])

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path};
 use std::sync::Arc;
 
+use hyperbody::geometry;
 use hyperbody::geometry::regular::Regular;
 use hyperbody::math::planes::{AXIS_NAMES, axis_from_name};
 use hyperbody::math::{Dim, EvenAlgebra};
@@ -78,6 +79,13 @@ where
             ShapeSpec::Rounded { shape, radius } => {
                 let core = self.shape_at_depth(shape, &format!("{path}.shape"), depth + 1)?;
                 Shape::rounded(core, *radius).map_err(refuse(&path))
+            }
+            ShapeSpec::Mesh { file } => {
+                let place = format!("{path}.file");
+                let cells = off::cells(&read_beside(self.folder, file, &place)?, &place)?;
+                let parts: geometry::Result<Vec<_>> =
+                    cells.into_iter().map(|cell| Ok((Pose::IDENTITY, Shape::polytope(Arc::new(cell))?))).collect();
+                parts.and_then(Shape::compound).map_err(refuse(&place))
             }
             ShapeSpec::Product { factors } => {
                 let made: Result<Vec<_>> = factors

@@ -2,15 +2,12 @@
 
 use super::cursor::{At, unknown_key};
 use super::{Result, rotation};
-use crate::error::{ErrorKind, SceneError};
+use crate::error::SceneError;
 use crate::model::{Factor, Part, PolytopeSpec, RotationSpec, ShapeSpec, Size};
 
 /// The shapes that this version builds.
-pub(crate) const SHAPES: [&str; 8] =
-    ["ball", "box", "half_space", "capsule", "polytope", "rounded", "product", "compound"];
-
-/// Shapes of the format that this version does not build yet.
-const LATER_SHAPES: [&str; 1] = ["mesh"];
+pub(crate) const SHAPES: [&str; 9] =
+    ["ball", "box", "half_space", "capsule", "polytope", "rounded", "product", "mesh", "compound"];
 
 pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
     let (key, inner) = at.variant("the kind of shape", &SHAPES)?;
@@ -44,16 +41,12 @@ pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
             let factors = fields.required("factors")?.list("a list of factors")?;
             Ok(ShapeSpec::Product { factors: factors.iter().map(factor).collect::<Result<_>>()? })
         }
+        "mesh" => Ok(ShapeSpec::Mesh { file: inner.fields("a mesh", &["file"])?.required("file")?.text()? }),
         "compound" => {
             let fields = inner.fields("a compound", &["parts"])?;
             let parts = fields.required("parts")?.list("a list of parts")?;
             Ok(ShapeSpec::Compound { parts: parts.iter().map(part).collect::<Result<_>>()? })
         }
-        key if LATER_SHAPES.contains(&key) => Err(SceneError::new(
-            ErrorKind::Unsupported,
-            &at.path,
-            format!("\"{key}\" shapes are not supported yet by this version; supported: {}", SHAPES.join(", ")),
-        )),
         key => Err(unknown_key(&at.path, key, &SHAPES)),
     }
 }
