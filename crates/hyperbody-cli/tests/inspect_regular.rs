@@ -66,8 +66,16 @@ fn polygons_and_the_other_platonic_solids() {
 #[test]
 fn the_other_polychora() {
     check(4, "24-cell", &[24, 96, 96, 24], 2.0, 13.0 / 120.0);
-    check(4, "600-cell", &[120, 720, 1200, 600], 3.862_712_429_687_567_5, 0.147_568_366_104_175_73);
-    check(4, "120-cell", &[600, 1200, 720, 120], 4.192_627_465_065_887, 0.153_870_287_817_664_99);
+    let root_5 = 5_f64.sqrt();
+    let phi = (1.0 + root_5) / 2.0;
+    // Edge a and inradius ρ; J = (ρ² + 3 J₃)/6 with the moment J₃ of a cell.
+    let (edge_sq, inradius_sq) = (1.0 / (phi * phi), 1.0 - 3.0 / 8.0 / (phi * phi));
+    let volume = 25.0 / 4.0 * (2.0 + root_5) * edge_sq * edge_sq;
+    check(4, "600-cell", &[120, 720, 1200, 600], volume, (inradius_sq + 3.0 / 40.0 * edge_sq) / 6.0);
+    let (edge_sq, inradius_sq) = (0.5 / phi.powi(4), phi.powi(4) / 8.0);
+    let volume = 15.0 / 4.0 * (105.0 + 47.0 * root_5) * edge_sq * edge_sq;
+    let moment = (inradius_sq + (39.0 * phi + 28.0) / 100.0 * edge_sq) / 6.0;
+    check(4, "120-cell", &[600, 1200, 720, 120], volume, moment);
 }
 
 /// A file that is not convex: a pyramid with a pyramid cut out of its base.
