@@ -107,7 +107,7 @@ fn subdivided<const N: usize>(polytope: &Polytope<N>) -> MassProperties<N> {
 
 fn random_hulls<const N: usize>() {
     let mut random = Random(400 + N as u64);
-    for count in [N + 1, N + 4, 40] {
+    for count in [N + 1, N + 4, 40, 200] {
         let points = random.points::<N>(count);
         let polytope = Polytope::from_points(&points).unwrap();
         let properties = MassProperties::of_polytope(&polytope);
