@@ -242,13 +242,17 @@ impl<const N: usize> Queries<'_, N> {
         if !ray.is_valid() {
             return;
         }
+        let speed_sq = ray.direction.norm_sq();
         let mut look = |slot: u32, reach: f64| {
             let Some(collider) = &self.world.colliders[slot as usize] else { return Some(reach) };
             let Some(body) = self.world.bodies.handle_at(collider.body) else { return Some(reach) };
-            if !filter(body) {
+            let pose = &self.world_from_collider[slot as usize];
+            if (collider.proxy.is_some() && passes_ball(ray, speed_sq, pose.translation, collider.reach))
+                || !filter(body)
+            {
                 return Some(reach);
             }
-            let seen = ray.up_to(reach).seen_from(&self.world_from_collider[slot as usize]);
+            let seen = ray.up_to(reach).seen_from(pose);
             match cast_on_piece(&seen, &collider.piece) {
                 Some(hit) => visit(slot, &hit).map(|next| next.min(reach)),
                 None => Some(reach),
@@ -273,4 +277,14 @@ impl<const N: usize> Queries<'_, N> {
         let part = siblings.iter().position(|&other| other == slot)? as u32;
         Some(BodyHit { body, hit: RayHit { part, ..hit.in_world(&self.world_from_collider[slot as usize]) } })
     }
+}
+
+/// Whether the line of a ray passes by a ball, beyond doubt by rounding. The ball around a turned body fills little of the
+/// body's box, the less the higher the dimension, so this spares most turns of rays into the frames of bodies.
+#[inline]
+fn passes_ball<const N: usize>(ray: &Ray<N>, speed_sq: f64, centre: Vector<N>, radius: f64) -> bool {
+    let away = centre - ray.origin;
+    let closest = away - ray.direction * (away.dot(ray.direction) / speed_sq);
+    let limit = radius * (1.0 + 1e-9) + 1e-14 * away.norm();
+    closest.norm_sq() > limit * limit
 }
