@@ -7,9 +7,18 @@
 //! T = a²(r_ik r_jk + r_il r_jl) + b²(r_ik r_il + r_jk r_jl), D = r_ik r_jl r_il r_jk (a² − b²)².
 //!
 //! All other eigenvalues are zero: changing the rates leads to a neighbouring steady rotation. A rotation is stable if all
-//! μ are real and negative, T > 0, D > 0, T² > 4D: then every disturbance oscillates. With J₁ > J₂ > J₃ > J₄ this says:
-//! in {12 | 34} always, in {13 | 24} never, in {14 | 23} if and only if the inner turn is fast enough, see
+//! μ are real, negative and different, T > 0, D > 0, T² > 4D: then every disturbance oscillates. With J₁ > J₂ > J₃ > J₄
+//! this says: in {12 | 34} always, in {13 | 24} never, in {14 | 23} if and only if the inner turn is fast enough, see
 //! [`inner_turn_threshold`]; with b = 0 that a simple rotation is stable if no moment lies between those of its plane.
+//!
+//! Where J_i J_j = J_k J_l, as in boxes whose edges are in proportion, T² = 4D at all rates and the two μ are one,
+//! −T/2 = r_ik r_il (a² − b²): unstable if that is positive, and if it is negative stable, for the eigenvectors are complete.
+//! T² − 4D is therefore never taken as that difference: with Δ = J_i J_j − J_k J_l, u = a² − b², P the bracket of a² in T,
+//!
+//! e = r_ik + r_jl = 2Δ/((J_i + J_k)(J_j + J_l)), f = r_il + r_jk = 2Δ/((J_i + J_l)(J_j + J_k)),
+//! T = uP + b²ef, T² − 4D = u²(e r_jk − f r_jl)² + 2uP b²ef + b⁴e²f²,
+//!
+//! where ef ≥ 0, and for |a| ≥ |b| terms of opposite signs meet only about a threshold.
 //!
 //! On the edges (equal moments, a threshold met to rounding) a double eigenvalue decides by its eigenvectors: if they are
 //! complete the disturbance stays bounded, if not it grows in proportion to time, and the verdict is left open. Isoclinic
@@ -73,6 +82,8 @@ pub struct Block {
     pub t: f64,
     /// D: the product of the two λ² (for an idle axis 0), in 1/s⁴.
     pub d: f64,
+    /// T² − 4D in 1/s⁴, without the rounding of that difference: negative if the λ² are complex, zero if they are one.
+    pub discriminant: f64,
     /// Largest real part of the block's eigenvalues, in 1/s.
     pub growth_rate: f64,
     /// What kind of block it is.
@@ -163,8 +174,8 @@ pub fn verdict_and_growth<const N: usize>(top: &FreeTop<N>, rotation: &Principal
     (verdict, growth_rate)
 }
 
-/// For moments J₁ ≥ J₂ ≥ J₃ ≥ J₄ and turns a in plane (1, 4), b in (2, 3): the least |b/a| for which the double rotation is
-/// stable, (√(r12 r24) + √(r13 r34))/(√(r12 r13) + √(r24 r34)). Between zero and one; one where J₁J₄ = J₂J₃.
+/// For moments J₁ ≥ J₂ ≥ J₃ ≥ J₄ and turns a in plane (1, 4), b in (2, 3): the |b/a| above which the double rotation is
+/// stable, (√(r12 r24) + √(r13 r34))/(√(r12 r13) + √(r24 r34)). From zero to one, and one exactly where J₁J₄ = J₂J₃.
 #[must_use]
 pub fn inner_turn_threshold(moments: [f64; 4]) -> f64 {
     let r = |i: usize, j: usize| (moments[i] - moments[j]) / (moments[i] + moments[j]);
@@ -197,57 +208,88 @@ fn idle_block<const N: usize>(top: &FreeTop<N>, turn: PrincipalTurn, axis: usize
         BlockKind::Drifting
     };
     let growth_rate = if product < 0.0 { turn.rate.abs() * (-product).sqrt() } else { 0.0 };
-    Block { turn, partner: Partner::IdleAxis(axis), t: turn.rate * turn.rate * product, d: 0.0, growth_rate, kind }
+    let t = turn.rate * turn.rate * product;
+    Block { turn, partner: Partner::IdleAxis(axis), t, d: 0.0, discriminant: t * t, growth_rate, kind }
 }
 
 fn pair_block<const N: usize>(top: &FreeTop<N>, first: PrincipalTurn, second: PrincipalTurn) -> Block {
+    // The faster turn has the rate a of the formulas.
+    let (fast, slow) = if first.rate.abs() >= second.rate.abs() { (first, second) } else { (second, first) };
     let asymmetries = [
-        top.asymmetry(first.i, second.i),
-        top.asymmetry(first.i, second.j),
-        top.asymmetry(first.j, second.i),
-        top.asymmetry(first.j, second.j),
+        top.asymmetry(fast.i, slow.i),
+        top.asymmetry(fast.i, slow.j),
+        top.asymmetry(fast.j, slow.i),
+        top.asymmetry(fast.j, slow.j),
     ];
     // Rates and asymmetries relative to the largest: T and D of the order of one, and the result scales back.
     let coupling = asymmetries.iter().fold(0.0, |largest: f64, r| largest.max(r.abs()));
-    let rate = first.rate.abs().max(second.rate.abs());
-    let (a, b) = (first.rate / rate, second.rate / rate);
     let partner = Partner::Turn(second);
     if coupling == 0.0 {
-        return Block { turn: first, partner, t: 0.0, d: 0.0, growth_rate: 0.0, kind: BlockKind::Oscillating };
+        let kind = BlockKind::Oscillating;
+        return Block { turn: first, partner, t: 0.0, d: 0.0, discriminant: 0.0, growth_rate: 0.0, kind };
     }
+    let rate = fast.rate.abs();
+    let (a, b) = (fast.rate / rate, slow.rate / rate);
     let r = asymmetries.map(|asymmetry| asymmetry / coupling);
-    let (t, d) = pair_coefficients(r, a, b);
-    let kind = pair_kind(r, a, b, t, d);
+    let sums = opposite_sums(top, fast, slow).map(|sum| sum / coupling);
+    let coefficients = pair_coefficients(r, sums, a, b);
+    let kind = pair_kind(r, a, b, coefficients);
+    let PairCoefficients { t, d, discriminant } = coefficients;
     let scale = rate * coupling;
     let growth_rate = match kind {
         BlockKind::Growing | BlockKind::GrowingOscillation => {
-            scale * block_roots(t, d).iter().map(|root| root.real).fold(0.0, f64::max)
+            scale * block_roots(t, d, discriminant).iter().map(|root| root.real).fold(0.0, f64::max)
         }
         _ => 0.0,
     };
     let scale_sq = scale * scale;
-    Block { turn: first, partner, t: t * scale_sq, d: d * scale_sq * scale_sq, growth_rate, kind }
+    let (t, d, discriminant) = (t * scale_sq, d * scale_sq * scale_sq, discriminant * scale_sq * scale_sq);
+    Block { turn: first, partner, t, d, discriminant, growth_rate, kind }
 }
 
-/// T and D for r_ik, r_il, r_jk, r_jl and the rates a, b.
-fn pair_coefficients([r_ik, r_il, r_jk, r_jl]: [f64; 4], a: f64, b: f64) -> (f64, f64) {
+/// e = r_ik + r_jl and f = r_il + r_jk, exactly zero together where J_i J_j = J_k J_l.
+fn opposite_sums<const N: usize>(top: &FreeTop<N>, first: PrincipalTurn, second: PrincipalTurn) -> [f64; 2] {
+    let moments = top.principal_moments();
+    let largest = [first.i, first.j, second.i, second.j].iter().fold(0.0, |most: f64, &axis| most.max(moments[axis]));
+    let [i, j, k, l] = [first.i, first.j, second.i, second.j].map(|axis| moments[axis] / largest);
+    let twice_delta = 2.0 * (i * j - k * l);
+    [twice_delta / ((i + k) * (j + l)), twice_delta / ((i + l) * (j + k))]
+}
+
+/// T, D and T² − 4D; the last exactly zero if it is zero to rounding.
+#[derive(Clone, Copy, Debug)]
+struct PairCoefficients {
+    t: f64,
+    d: f64,
+    discriminant: f64,
+}
+
+/// For r_ik, r_il, r_jk, r_jl, the sums e and f and the rates |a| ≥ |b|.
+fn pair_coefficients([r_ik, r_il, r_jk, r_jl]: [f64; 4], [e, f]: [f64; 2], a: f64, b: f64) -> PairCoefficients {
     let difference = (a - b) * (a + b);
-    let t = a * a * (r_ik * r_jk + r_il * r_jl) + b * b * (r_ik * r_il + r_jk * r_jl);
-    (t, r_ik * r_jl * r_il * r_jk * difference * difference)
+    let product = r_ik * r_jk + r_il * r_jl;
+    let from_sums = b * b * e * f;
+    let t = difference * product + from_sums;
+    let d = r_ik * r_jl * r_il * r_jk * difference * difference;
+    let from_difference = difference * (e * r_jk - f * r_jl);
+    let apart = from_difference * from_difference + 2.0 * difference * product * from_sums + from_sums * from_sums;
+    // With D ≤ 0 the plain difference loses nothing.
+    let exact = if d > 0.0 { apart } else { t * t - 4.0 * d };
+    let edge = ROUNDING * (t * t).max(4.0 * d.abs());
+    PairCoefficients { t, d, discriminant: if exact.abs() <= edge { 0.0 } else { exact } }
 }
 
-fn pair_kind(r: [f64; 4], a: f64, b: f64, t: f64, d: f64) -> BlockKind {
+fn pair_kind(r: [f64; 4], a: f64, b: f64, coefficients: PairCoefficients) -> BlockKind {
+    let PairCoefficients { t, d, discriminant } = coefficients;
     if ((a - b) * (a + b)).abs() <= ROUNDING {
         return BlockKind::Isoclinic;
     }
-    let discriminant = t * t - 4.0 * d;
-    let edge = ROUNDING * (t * t).max(4.0 * d.abs());
     // The sign of D is that of a product, exact; so D = 0 means equal moments.
-    if d < 0.0 || (d == 0.0 && t < -ROUNDING) || (d > 0.0 && t < 0.0 && discriminant > edge) {
+    if d < 0.0 || (d == 0.0 && t < -ROUNDING) || (d > 0.0 && t < 0.0 && discriminant >= 0.0) {
         BlockKind::Growing
-    } else if discriminant < -edge {
+    } else if discriminant < 0.0 {
         BlockKind::GrowingOscillation
-    } else if (d > 0.0 && discriminant > edge) || stays_bounded(&pair_generator(r, a, b), t, d) {
+    } else if (d > 0.0 && discriminant > 0.0) || stays_bounded(&pair_generator(r, a, b), t, d) {
         BlockKind::Oscillating
     } else {
         BlockKind::Drifting
@@ -293,9 +335,8 @@ fn multiply(a: &[[f64; 4]; 4], b: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
     product
 }
 
-/// The four roots λ of λ⁴ + Tλ² + D = 0.
-fn block_roots(t: f64, d: f64) -> [Eigenvalue; 4] {
-    let discriminant = t * t - 4.0 * d;
+/// The four roots λ of λ⁴ + Tλ² + D = 0, with T² − 4D.
+fn block_roots(t: f64, d: f64, discriminant: f64) -> [Eigenvalue; 4] {
     let pair = |real: f64, imaginary: f64| Eigenvalue { real, imaginary };
     if discriminant >= 0.0 {
         // The root of larger size first, the other from the product: no cancellation.
@@ -316,7 +357,7 @@ fn block_roots(t: f64, d: f64) -> [Eigenvalue; 4] {
 
 fn block_eigenvalues(block: &Block) -> Vec<Eigenvalue> {
     match block.partner {
-        Partner::Turn(_) => block_roots(block.t, block.d).to_vec(),
+        Partner::Turn(_) => block_roots(block.t, block.d, block.discriminant).to_vec(),
         Partner::IdleAxis(_) => {
             let root = block.t.abs().sqrt();
             let values = [root, -root];

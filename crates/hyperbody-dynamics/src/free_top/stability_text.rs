@@ -52,7 +52,7 @@ fn why_stable<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> Str
         .blocks
         .iter()
         .filter_map(|block| match block.partner {
-            Partner::Turn(other) => Some(pair_reason(top, block.turn, other)),
+            Partner::Turn(other) => Some(pair_reason(top, block.turn, other, Verdict::Stable)),
             Partner::IdleAxis(_) => None,
         })
         .collect();
@@ -95,13 +95,21 @@ fn why_unstable<const N: usize>(top: &FreeTop<N>, stability: &Stability<N>) -> S
             )
         }
         Partner::Turn(other) => {
-            format!("{}: a disturbance {how} e-fold in {seconds} s", pair_reason(top, worst.turn, other))
+            format!(
+                "{}: a disturbance {how} e-fold in {seconds} s",
+                pair_reason(top, worst.turn, other, Verdict::Unstable)
+            )
         }
     }
 }
 
-/// What the order of the four moments says about two turning planes.
-fn pair_reason<const N: usize>(top: &FreeTop<N>, first: PrincipalTurn, second: PrincipalTurn) -> String {
+/// What the order of the four moments says about two turning planes that have the given verdict.
+fn pair_reason<const N: usize>(
+    top: &FreeTop<N>,
+    first: PrincipalTurn,
+    second: PrincipalTurn,
+    verdict: Verdict,
+) -> String {
     let mut axes = [first.i, first.j, second.i, second.j];
     let moments = top.principal_moments();
     axes.sort_by(|&a, &b| moments[b].total_cmp(&moments[a]));
@@ -135,8 +143,11 @@ fn pair_reason<const N: usize>(top: &FreeTop<N>, first: PrincipalTurn, second: P
         ),
         _ => {
             let (ratio, threshold) = ((inner.rate / outer.rate).abs(), inner_turn_threshold(sorted));
-            let (relation, turns) =
-                if ratio < threshold { ("below", "too slow to hold") } else { ("at or above", "fast enough to hold") };
+            let (relation, turns) = if verdict == Verdict::Stable {
+                ("above", "fast enough to hold")
+            } else {
+                ("below", "too slow to hold")
+            };
             format!(
                 "the inner turn {} is {turns} the outer one {}: |b/a| = {ratio:.6} is {relation} the threshold {threshold:.6} for {}",
                 name(inner),
