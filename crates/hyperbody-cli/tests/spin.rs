@@ -335,10 +335,26 @@ fn spins_runs_maps_and_files_that_make_no_sense_are_refused_with_the_reason() {
     {
         assert_eq!(hyperbody(&arguments).status.code(), Some(2), "{arguments:?}");
     }
-    // A step too long for the implicit equation is no bad input, but no result either.
-    let long = with(&TOP, &["--spin", "xz=300,xy=200", "--method", "midpoint", "--dt", "1"]);
-    let output = hyperbody(&long);
-    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn what_is_out_of_proportion_is_refused_by_the_option_that_mends_it() {
+    let spin = ["--spin", "xz=1"];
+    let fast = ["--spin", "xz=300,xy=200", "--method", "midpoint", "--dt", "0.1", "--seconds", "1"];
+    check_refused(vec![
+        (with(&TOP, &fast), "error: --dt: the midpoint equation"),
+        (with(&TOP, &["--spin", "xz=1,xy=1", "--seconds", "1", "--tolerance", "1e-30"]), "error: --tolerance: after"),
+        (with(&TOP, &["--map", "y,z", "--spin", "xw=1", "--range", "-1,1"]), "error: --range: the second moment"),
+        (vec!["spin", "--moments", "4,3,-2,1", "--spin", "xy=1"], "axis z is -2; it is ∫ρ z² dV"),
+        (vec!["spin", "--moments", "3,2,1", "--map", "xy,xz"], "take four dimensions, and this body has 3"),
+        (vec!["spin", "--moments", "3,2,1", "--map", "xw,yz"], "take four dimensions, and this body has 3"),
+        (
+            with(&TOP, &with(&spin, &["--dt", "100"])),
+            "error: --dt: a step of 100 s is longer than the whole run of 60 s",
+        ),
+        (with(&TOP, &with(&spin, &["--compare", "midpoint,midpoint"])), "error: --compare: midpoint is named twice"),
+        (with(&TOP, &with(&spin, &["--compare", "splitting4"])), "what the run itself takes"),
+    ]);
 }
 
 /// A folder that takes no files is found before the work begins.

@@ -206,7 +206,7 @@ fn error_control_reaches_its_tolerance() {
     let mut plan = RunPlan::new(Method::Splitting2, 1.0, 0.25).expect("a plan");
     plan.tolerance = Some(1e-18);
     let error = run(&top, &start, &plan, &mut |_, _| {}).expect_err("beyond rounding");
-    assert_eq!(error.kind(), FreeTopErrorKind::NoConvergence);
+    assert_eq!(error.kind(), FreeTopErrorKind::Tolerance);
 }
 
 #[test]

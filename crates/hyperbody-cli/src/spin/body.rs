@@ -50,11 +50,11 @@ impl Body {
     }
 }
 
-/// A refusal with the option that caused it.
+/// A refusal with the option that caused it: `option`, unless the error itself tells.
 pub(super) fn refused(option: &str, error: &FreeTopError) -> Failure {
     match error.kind() {
-        // The input was fine, the computation did not come to an end.
-        FreeTopErrorKind::NoConvergence => Failure::Work(error.to_string()),
+        FreeTopErrorKind::NoConvergence => Failure::Input(format!("--dt: {error}")),
+        FreeTopErrorKind::Tolerance => Failure::Input(format!("--tolerance: {error}")),
         _ => Failure::Input(format!("{option}: {error}")),
     }
 }

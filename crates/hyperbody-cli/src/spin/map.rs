@@ -6,7 +6,7 @@ use std::time::Instant;
 use hyperbody::dynamics::free_top::stability::{inner_turn_threshold, verdict_and_growth};
 use hyperbody::dynamics::free_top::sweep::MapCell;
 use hyperbody::dynamics::free_top::{
-    FreeTop, MapRange, PrincipalRotation, StabilityMap, Verdict, map_moments, map_spins, parse_spin,
+    FreeTop, FreeTopErrorKind, MapRange, PrincipalRotation, StabilityMap, Verdict, map_moments, map_spins, parse_spin,
 };
 use hyperbody::math::{Bivector, Dim, EvenAlgebra, Vector, planes};
 use hyperbody_scene::DimensionVisitor;
@@ -45,7 +45,7 @@ pub(super) struct MapReport {
     pub(super) measured_growth_rate: Vec<Vec<f64>>,
     /// Where the closed form changes from stable to unstable, as segments between cells.
     pub(super) boundary: Vec<Segment>,
-    /// The least |b/a| of a stable double rotation whose one plane lies within the other by moments, where a map over spins
+    /// The |b/a| above which a double rotation is stable whose one plane lies within the other by moments, where a map over spins
     /// shows one.
     pub(super) threshold: Option<f64>,
     /// The plane within and the plane around it, of that threshold.
@@ -101,7 +101,11 @@ impl DimensionVisitor for Map<'_> {
             Varied::Planes(pair) => map_spins(&top, pair, x, y, &progress),
             Varied::Axes(axes) => map_moments(&top, axes, &spin, x, y, &progress),
         };
-        let map = map.map_err(|error| refused("--map", &error))?;
+        // The moments of the body itself were accepted; what a cell refuses is a value of the range.
+        let map = map.map_err(|error| match error.kind() {
+            FreeTopErrorKind::Moments => refused("--range", &error),
+            _ => refused("--map", &error),
+        })?;
         let compute_seconds = clock.elapsed().as_secs_f64();
         let judge = |x: f64, y: f64| match varied {
             Varied::Planes(pair) => {
@@ -147,6 +151,13 @@ fn varied<const N: usize>(text: &str) -> Result<Varied, Failure> {
         [letter] => planes::axis_from_name(N, letter),
         _ => None,
     };
+    let axes: String = planes::AXIS_NAMES[..N].iter().collect();
+    if N < 4 && names.iter().any(|name| name.chars().count() == 2) {
+        return Err(Failure::Input(format!(
+            "--map: \"{text}\": two planes without a common axis take four dimensions, and this body has {N}; map over the \
+             moments of two of its axes {axes} instead, such as --map x,y --spin xy=1"
+        )));
+    }
     if let [first, second] = names[..] {
         if let (Some(first), Some(second)) = (planes::from_name(N, first), planes::from_name(N, second)) {
             return Ok(Varied::Planes([first, second]));
@@ -155,7 +166,6 @@ fn varied<const N: usize>(text: &str) -> Result<Varied, Failure> {
             return Ok(Varied::Axes([first, second]));
         }
     }
-    let axes: String = planes::AXIS_NAMES[..N].iter().collect();
     Err(Failure::Input(format!(
         "--map: \"{text}\" is neither two planes without a common axis, such as xw,yz, nor two axes, such as y,z; the \
          axes are {axes}"
@@ -300,7 +310,7 @@ pub(super) fn as_text(report: &MapReport) -> String {
         ("open", share(None)),
     ]);
     if let (Some(threshold), Some([inner, outer])) = (report.threshold, &report.inner_and_outer) {
-        lines.push(("threshold", format!("{inner} holds {outer} from a ratio of their rates of {threshold:.10} on")));
+        lines.push(("threshold", format!("{inner} holds {outer} above a ratio of their rates of {threshold:.10}")));
     }
     lines.push(("disagreements", format!("{} cells between verdict and measured growth", report.disagreements)));
     lines.push(("computed in", format!("{:.2} s", report.compute_seconds)));

@@ -31,6 +31,8 @@ pub(super) struct Report {
     pub(super) steps: u64,
     /// Most parts into which error control divided a step.
     pub(super) most_parts: u64,
+    /// Why the run is not to be trusted: steps too long for the spin.
+    pub(super) warning: Option<String>,
     pub(super) stability: StabilityReport,
     pub(super) equations: Vec<Equation>,
     pub(super) conserved: Conserved,
@@ -68,8 +70,11 @@ pub(super) struct StabilityReport {
     pub(super) stable: Option<bool>,
     /// Of the fastest growing disturbance, 1/s.
     pub(super) growth_rate: f64,
-    /// From a run that was disturbed by a part in 10¹⁰, 1/s; null where there is no steady rotation to disturb.
+    /// From a run that was disturbed by a part in 10¹⁰, 1/s: zero where nothing grew to a part in 10⁴; null where there is no
+    /// steady rotation to disturb.
     pub(super) measured_growth_rate: Option<f64>,
+    /// Growth that this run rules out where it measured none, 1/s.
+    pub(super) measured_growth_below: Option<f64>,
     pub(super) why: String,
     /// The steady rotation that was judged, rad/s.
     pub(super) rotation: Named<f64>,
@@ -152,7 +157,7 @@ pub(super) struct Compared {
 pub(super) struct FlipReport {
     /// The plane whose momentum changes its sign.
     pub(super) plane: String,
-    /// s.
+    /// s; none where the steps are too long to find them.
     pub(super) times: Vec<f64>,
     /// Largest deviation of the time between flips from its mean, relative to it.
     pub(super) irregularity: Option<f64>,
@@ -161,6 +166,7 @@ pub(super) struct FlipReport {
 /// Of the momentum in the body frame, s; two flips make a period.
 #[derive(Serialize)]
 pub(super) struct Period {
+    /// Null unless the time between flips is the same to a few percent.
     pub(super) measured: Option<f64>,
     /// From Jacobi's functions; null where they do not apply, or on the separatrix, where it is infinite.
     pub(super) exact: Option<f64>,

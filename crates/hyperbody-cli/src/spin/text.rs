@@ -2,7 +2,7 @@
 
 use hyperbody::dynamics::free_top::growth::DISTURBANCE;
 
-use super::report::{DriftReport, Report};
+use super::report::{DriftReport, Report, StabilityReport};
 use crate::output::{labelled, number, table};
 
 /// Characters of a sentence to a line, beside its label.
@@ -15,7 +15,7 @@ pub(super) fn as_text(report: &Report) -> String {
     let moments: Vec<String> = report.moments.iter().map(|&moment| number(moment)).collect();
     let mut parts = vec![
         format!("A free body of {} dimensions, J = ({}) {}", report.dimension, moments.join(", "), report.moments_unit),
-        labelled([("spin at the start", report.spin_text(usize::MAX)), ("followed for", followed(report))]),
+        start(report),
         stability(report),
         equations(report),
         drift(report),
@@ -27,6 +27,15 @@ pub(super) fn as_text(report: &Report) -> String {
     parts.join("\n\n")
 }
 
+fn start(report: &Report) -> String {
+    let mut lines = vec![("spin at the start", report.spin_text(usize::MAX)), ("followed for", followed(report))];
+    if let Some(warning) = &report.warning {
+        let labels = std::iter::once("warning").chain(std::iter::repeat(""));
+        lines.extend(labels.zip(wrapped(warning, LINE_LENGTH)));
+    }
+    labelled(lines)
+}
+
 fn followed(report: &Report) -> String {
     let divided = if report.most_parts > 1 {
         format!(", each divided into up to {} parts", report.most_parts)
@@ -34,7 +43,8 @@ fn followed(report: &Report) -> String {
         String::new()
     };
     let (seconds, dt) = (number(report.seconds), report.dt_text());
-    format!("{seconds} s by {} in {} steps of {dt}{divided}", report.method, report.steps)
+    let steps = if report.steps == 1 { "1 step".to_owned() } else { format!("{} steps", report.steps) };
+    format!("{seconds} s by {} in {steps} of {dt}{divided}", report.method)
 }
 
 fn stability(report: &Report) -> String {
@@ -51,13 +61,30 @@ fn stability(report: &Report) -> String {
     let mut lines = vec![("steady rotation", verdict)];
     let labels = std::iter::once("why").chain(std::iter::repeat(""));
     lines.extend(labels.zip(wrapped(&found.why, LINE_LENGTH)));
-    if let Some(rate) = found.measured_growth_rate {
-        lines.push(("measured growth", format!("{} /s, in a run disturbed by {DISTURBANCE:e}", number(rate))));
+    if let Some(measured) = measured_growth(found) {
+        lines.push(("measured growth", measured));
     }
     if found.stable.is_some() && found.disturbance == 0.0 {
         lines.push(("", "the spin is exactly steady; --disturb 0.001 shows what a push does".to_owned()));
     }
     labelled(lines)
+}
+
+/// What the disturbed run says of growth, which below the bound is nothing.
+fn measured_growth(found: &StabilityReport) -> Option<String> {
+    let rate = found.measured_growth_rate?;
+    let run = format!("in a run disturbed by {DISTURBANCE:e}");
+    Some(match (found.measured_growth_below, found.stable) {
+        (None, _) => format!("{} /s, {run}", number(rate)),
+        (Some(bound), Some(false)) => format!("too slow to show (below {} /s), {run}", rough(bound)),
+        (Some(bound), Some(true)) => format!("does not grow (below {} /s), {run}", rough(bound)),
+        (Some(bound), None) => format!("none that is exponential (below {} /s), {run}", rough(bound)),
+    })
+}
+
+/// Two digits of a bound.
+fn rough(bound: f64) -> String {
+    number(format!("{bound:.1e}").parse().unwrap_or(bound))
 }
 
 /// A sentence in lines of at most `width` characters, broken between words.
@@ -143,7 +170,12 @@ fn regularity(report: &Report) -> Vec<(&'static str, String)> {
             small if small < 1e-3 => format!("each interval within {small:.0e} of the mean"),
             large => format!("each interval within {:.1} % of the mean", 100.0 * large),
         };
-        lines.push(("period", format!("{measured:.10} s between every other flip, {regular}")));
+        let period = if irregularity < 1e-6 { format!("{measured:.10}") } else { number(measured) };
+        lines.push(("period", format!("{period} s between every other flip, {regular}")));
+    } else if flips.times.len() > 2 {
+        let between = || flips.times.windows(2).map(|pair| pair[1] - pair[0]);
+        let (shortest, longest) = (between().fold(f64::INFINITY, f64::min), between().fold(0.0, f64::max));
+        lines.push(("between flips", format!("irregular: from {} to {} s", number(shortest), number(longest))));
     }
     if let Some(exact) = report.period.exact {
         let beside = report.period.measured.map(|measured| format!(", measured {:+.1e} off", measured / exact - 1.0));

@@ -15,6 +15,7 @@ use super::report::{
     Period, Report, StabilityReport,
 };
 use crate::failure::Failure;
+use crate::output::number;
 use crate::progress::Progress;
 
 /// Angles, in radians of the fastest turn, through which a disturbed run is followed: enough for a steady rotation to show
@@ -24,6 +25,16 @@ const MAX_DISTURBED_RAD: f64 = 2e4;
 
 /// E-foldings through which an unstable rotation is followed; from a part in 10¹⁰ to a part in 10⁴ it takes 13.8.
 const DISTURBED_FOLDS: f64 = 20.0;
+
+/// The step where none is given: one 240th of a second, as in a simulation.
+const DEFAULT_DT: f64 = 1.0 / 240.0;
+
+/// Angle in radians of one step from which on a run is not to be trusted, and the one that is recommended instead.
+const TOO_LONG_RAD: f64 = 0.5;
+const FINE_RAD: f64 = 0.1;
+
+/// Largest deviation of the time between flips from its mean, relative, of what is called a period.
+const REGULAR: f64 = 0.03;
 
 /// Runs the body of the arguments, in whatever dimension it has.
 pub(super) struct Trial<'a> {
@@ -44,6 +55,7 @@ impl DimensionVisitor for Trial<'_> {
         let plan = plan(self.arguments, "--method", &self.arguments.method)?;
         let others = self.arguments.compare.iter().map(|name| self::plan(self.arguments, "--compare", name));
         let others = others.collect::<Result<Vec<RunPlan>, Failure>>()?;
+        refuse_repeated(&plan, &others)?;
         let judged = stability(&top, &spin).map_err(|error| refused("--spin", &error))?;
         let record = follow(&top, &start, &plan, "--method")?;
         let mut compared = Vec::with_capacity(others.len());
@@ -51,6 +63,9 @@ impl DimensionVisitor for Trial<'_> {
             compared.push(compare(&top, &start, other, &record)?);
         }
         let exact = ExactMotion::new(&top, &start).ok();
+        let warning = step_warning(&plan, &record);
+        let flips = flip_report(&record, warning.is_none());
+        let regular = flips.irregularity.is_some_and(|irregularity| irregularity <= REGULAR);
         Ok(Report {
             dimension: N,
             moments: self.body.moments.clone(),
@@ -62,14 +77,15 @@ impl DimensionVisitor for Trial<'_> {
             dt: record.dt,
             steps: record.steps,
             most_parts: record.most_parts,
+            warning,
             stability: stability_report(&top, &judged)?,
             equations: equations(&top, &spin),
             conserved: conserved(&Invariants::of(&top, &start)),
             max_relative_drift: drift_report(record.drift),
             compared,
-            flips: flip_report(&record),
+            flips,
             period: Period {
-                measured: record.flips.period,
+                measured: record.flips.period.filter(|_| regular),
                 exact: exact.and_then(|exact| exact.period()).filter(|period| period.is_finite()),
             },
             closed_form: exact.map(|exact| ClosedForm {
@@ -107,8 +123,8 @@ fn spin_of<const N: usize>(arguments: &SpinArguments) -> Result<(Bivector<N>, f6
 
 fn plan(arguments: &SpinArguments, option: &str, method: &str) -> Result<RunPlan, Failure> {
     let method = Method::from_name(method.trim()).map_err(|error| refused(option, &error))?;
-    let mut plan =
-        RunPlan::new(method, arguments.seconds, arguments.dt).map_err(|error| refused("--seconds, --dt", &error))?;
+    let mut plan = RunPlan::new(method, arguments.seconds, arguments.dt.unwrap_or(DEFAULT_DT))
+        .map_err(|error| refused("--seconds, --dt", &error))?;
     plan.tolerance = arguments.tolerance;
     if plan.tolerance.is_some_and(|tolerance| !(tolerance > 0.0 && tolerance.is_finite())) {
         return Err(Failure::Input(format!(
@@ -117,8 +133,51 @@ fn plan(arguments: &SpinArguments, option: &str, method: &str) -> Result<RunPlan
         )));
     }
     let steps = plan.steps().map_err(|error| refused("--seconds, --dt", &error))?;
+    // The default step is shortened without a word.
+    if arguments.dt.is_some_and(|dt| dt > plan.seconds) {
+        return Err(Failure::Input(format!(
+            "--dt: a step of {} s is longer than the whole run of {} s; give a shorter --dt or more --seconds",
+            number(plan.dt),
+            number(plan.seconds)
+        )));
+    }
     plan.record_every = (steps / u64::from(arguments.samples)).max(1);
     Ok(plan)
+}
+
+/// Comparing a method with itself says nothing.
+fn refuse_repeated(plan: &RunPlan, others: &[RunPlan]) -> Result<(), Failure> {
+    for (index, other) in others.iter().enumerate() {
+        let name = other.method.name();
+        if other.method == plan.method {
+            return Err(Failure::Input(format!("--compare: {name} is what the run itself takes; name other methods")));
+        }
+        if others[..index].iter().any(|earlier| earlier.method == other.method) {
+            return Err(Failure::Input(format!("--compare: {name} is named twice; name every method once")));
+        }
+    }
+    Ok(())
+}
+
+/// What to say of steps that are too long for the spin.
+fn step_warning<const N: usize>(plan: &RunPlan, record: &TopRun<N>) -> Option<String> {
+    let norms = record.spins.iter().map(Bivector::norm);
+    let fastest = norms.filter(|norm| norm.is_finite()).fold(0.0, f64::max);
+    let angle = fastest * record.dt;
+    if angle <= TOO_LONG_RAD {
+        return None;
+    }
+    let followed = plan.method == Method::Exact || plan.tolerance.is_some();
+    let trouble = if followed {
+        "too far to find every flip".to_owned()
+    } else {
+        format!("too far for {}, so that neither motion nor drift is to be trusted", plan.method.name())
+    };
+    Some(format!(
+        "a step turns the body by {} rad, {trouble}; --dt {:.0e} would do. No flips and no period are reported",
+        number(angle),
+        FINE_RAD / fastest
+    ))
 }
 
 fn follow<const N: usize>(
@@ -153,18 +212,19 @@ fn compare<const N: usize>(
 fn stability_report<const N: usize>(top: &FreeTop<N>, judged: &Stability<N>) -> Result<StabilityReport, Failure> {
     let turns = judged.rotation.turns();
     let fastest = turns.iter().map(|turn| turn.rate.abs()).fold(0.0, f64::max);
-    let measured_growth_rate = if fastest > 0.0 && judged.disturbance <= MAX_DISTURBANCE {
+    let (measured_growth_rate, measured_growth_below) = if fastest > 0.0 && judged.disturbance <= MAX_DISTURBANCE {
         let folds = if judged.growth_rate > 0.0 { DISTURBED_FOLDS / judged.growth_rate } else { 0.0 };
         let seconds = folds.clamp(DISTURBED_RAD / fastest, MAX_DISTURBED_RAD / fastest);
         let run = perturbed_run(top, &judged.rotation, seconds).map_err(|error| refused("--spin", &error))?;
-        Some(run.growth_rate)
+        (Some(if run.ran_away { run.growth_rate } else { 0.0 }), run.growth_bound)
     } else {
-        None
+        (None, None)
     };
     Ok(StabilityReport {
         stable: judged.verdict.stable(),
         growth_rate: judged.growth_rate,
         measured_growth_rate,
+        measured_growth_below,
         why: judged.why.clone(),
         rotation: Named(turns.iter().map(|turn| (planes::name(turn.i, turn.j), turn.rate)).collect()),
         disturbance: judged.disturbance,
@@ -228,12 +288,13 @@ fn drift_report(drift: Drift) -> DriftReport {
     }
 }
 
-fn flip_report<const N: usize>(record: &TopRun<N>) -> FlipReport {
+/// The flips, if steps are short enough to find them.
+fn flip_report<const N: usize>(record: &TopRun<N>, found: bool) -> FlipReport {
     let flips = &record.flips;
     FlipReport {
         plane: planes::name(flips.plane.0, flips.plane.1),
-        times: flips.times.clone(),
-        irregularity: flips.irregularity,
+        times: if found { flips.times.clone() } else { Vec::new() },
+        irregularity: flips.irregularity.filter(|_| found),
     }
 }
 

@@ -26,6 +26,8 @@ pub enum FreeTopErrorKind {
     NoClosedForm,
     /// An implicit step has no solution within reach.
     NoConvergence,
+    /// Error control does not reach its tolerance.
+    Tolerance,
 }
 
 impl FreeTopError {

@@ -129,8 +129,12 @@ fn square(matrix: &Square, count: usize) -> Square {
 /// How a disturbed body runs away from an undisturbed one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PerturbedRun {
-    /// Measured growth rate in 1/s; close to zero if the disturbance stayed small.
+    /// Measured growth rate in 1/s. Where the disturbance did not run away it is what beats and rounding leave, of either
+    /// sign, and [`PerturbedRun::growth_bound`] says more.
     pub growth_rate: f64,
+    /// Growth in 1/s that the run rules out if the disturbance did not run away: a tenth of it growing faster would have
+    /// passed the largest deviation seen. `None` if it ran away or nothing turned.
+    pub growth_bound: Option<f64>,
     /// Whether the disturbance grew to 1e-4 of the momentum.
     pub ran_away: bool,
     /// Times in seconds.
@@ -146,6 +150,9 @@ pub const DISTURBANCE: f64 = 1e-10;
 /// bounded ones, early enough that the motion is still linear.
 const MEASURE_FROM: f64 = 1e-7;
 const MEASURE_TO: f64 = 1e-4;
+
+/// Share of the disturbance that a growing mode is taken to have at least, where none was seen.
+const GROWING_SHARE: f64 = 0.1;
 
 /// Most points that a [`PerturbedRun`] keeps.
 const MAX_POINTS: u64 = 2000;
@@ -165,7 +172,13 @@ pub fn perturbed_run<const N: usize>(
     let momentum = steady.momentum_in_body;
     let size = momentum.norm();
     let fastest = rotation.turns().iter().map(|turn| turn.rate.abs()).fold(0.0, f64::max);
-    let mut run = PerturbedRun { growth_rate: 0.0, ran_away: false, times: vec![0.0], deviations: vec![DISTURBANCE] };
+    let mut run = PerturbedRun {
+        growth_rate: 0.0,
+        growth_bound: None,
+        ran_away: false,
+        times: vec![0.0],
+        deviations: vec![DISTURBANCE],
+    };
     if fastest == 0.0 || seconds.is_nan() || seconds <= 0.0 {
         return Ok(run);
     }
@@ -199,6 +212,7 @@ pub fn perturbed_run<const N: usize>(
         }
     }
     run.growth_rate = scalar::ln(late / early) / (0.5 * seconds);
+    run.growth_bound = Some(scalar::ln(early.max(late) / (GROWING_SHARE * DISTURBANCE)) / seconds);
     Ok(run)
 }
 

@@ -222,7 +222,7 @@ impl ErrorControl {
         }
         coarse?;
         Err(FreeTopError::new(
-            FreeTopErrorKind::NoConvergence,
+            FreeTopErrorKind::Tolerance,
             format!(
                 "after {MAX_HALVINGS} halvings a step of {dt:.3e} s still changes by {error:.1e}, more than the tolerance \
                  {tolerance:.1e}: rounding does not allow less; raise the tolerance or take a method of higher order"

@@ -41,9 +41,9 @@ impl<const N: usize> FreeTop<N> {
         for (axis, moment) in principal_moments.iter().enumerate() {
             if !(moment >= 0.0 && moment.is_finite()) {
                 return Err(bad_moments(format!(
-                    "the second moment of axis {} is {}; it is ∫ρ x² dV and must be finite and not negative",
-                    planes::AXIS_NAMES[axis],
-                    shown(moment)
+                    "the second moment of axis {name} is {}; it is ∫ρ {name}² dV and must be finite and not negative",
+                    shown(moment),
+                    name = planes::AXIS_NAMES[axis],
                 )));
             }
         }
