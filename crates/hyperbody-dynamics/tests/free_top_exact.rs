@@ -174,3 +174,52 @@ fn a_general_spin_in_four_dimensions_has_no_closed_form_here() {
     let steady = start(&top, &(Bivector::plane(0, 2, 1.0) + Bivector::plane(1, 3, 0.5)));
     assert!(matches!(ExactMotion::new(&top, &steady), Ok(ExactMotion::Steady(_))));
 }
+
+type Matrix = [[f64; 4]; 4];
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// e^A by its series for A/2¹⁰, squared ten times.
+fn exponential(a: &Matrix) -> Matrix {
+    let small = a.map(|row| row.map(|entry| entry / 1024.0));
+    let one: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+    let (mut sum, mut term) = (one, one);
+    for k in 1..16 {
+        term = product(&term, &small).map(|row| row.map(|entry| entry / f64::from(k)));
+        sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + term[i][j]));
+    }
+    (0..10).fold(sum, |power, _| product(&power, &power))
+}
+
+/// R(t) = e^{t(Ω₀ + rD)} e^{−rtD} with Ω₀ minus the matrix of spins, as docs/free-rotation.md has it.
+#[test]
+fn the_written_formula_of_block_symmetric_bodies_has_its_signs() {
+    let top = FreeTop::new(Vector([2.0, 2.0, 1.0, 1.0])).expect("a body");
+    let spin = Bivector::<4>::from_fn(|i, j| [0.7, 0.3, 0.2, -0.4, -0.5, 0.9][planes::index(4, i, j)]);
+    let start = TopState::from_spin(&top, Rotation::IDENTITY, &spin).expect("a finite spin");
+    let attitude = ExactMotion::new(&top, &start).expect("blocks").state_at(3.0).world_from_body;
+    let r = (2.0 - 1.0) / (2.0 + 1.0);
+    let by_sign = |sign: f64| {
+        let omega: Matrix = std::array::from_fn(|i| {
+            std::array::from_fn(|j| match i.cmp(&j) {
+                std::cmp::Ordering::Less => sign * spin.get(i, j),
+                std::cmp::Ordering::Equal => 0.0,
+                std::cmp::Ordering::Greater => -sign * spin.get(j, i),
+            })
+        });
+        let block = |i: usize, j: usize| match (i < 2, j < 2) {
+            (true, true) => omega[i][j],
+            (false, false) => -omega[i][j],
+            _ => 0.0,
+        };
+        let outer = std::array::from_fn(|i| std::array::from_fn(|j| 3.0 * (omega[i][j] + r * block(i, j))));
+        let inner = std::array::from_fn(|i| std::array::from_fn(|j| -3.0 * r * block(i, j)));
+        let written = product(&exponential(&outer), &exponential(&inner));
+        let off = |i: usize, j: usize| (written[i][j] - attitude.matrix().row(i)[j]).abs();
+        (0..4).flat_map(|i| (0..4).map(move |j| (i, j))).map(|(i, j)| off(i, j)).fold(0.0, f64::max)
+    };
+    assert!(by_sign(-1.0) < 1e-12, "off by {}", by_sign(-1.0));
+    assert!(by_sign(1.0) > 0.1, "the other sign is another motion");
+}
