@@ -3,7 +3,8 @@
 use super::Block;
 use crate::solver::bodies::Sizes;
 
-/// Positions, in lanes, inside a block: header, sliding rows, their mass matrix, twisting rows, normal rows.
+/// Positions, in lanes, inside a block: header, sliding rows, their mass matrix, twisting rows, normal rows,
+/// and the response matrix of those.
 pub(crate) struct Layout<const N: usize>;
 
 impl<const N: usize> Layout<N> {
@@ -19,8 +20,9 @@ impl<const N: usize> Layout<N> {
     pub(crate) const FRICTION: usize = 2;
     pub(crate) const RESTITUTION: usize = 3;
     pub(crate) const BIAS_RATE: usize = 4;
-    pub(crate) const MASS_SCALE: usize = 5;
-    pub(crate) const IMPULSE_SCALE: usize = 6;
+    /// γ of a soft row, and what rigid rows have in its place; 1/kg.
+    pub(crate) const SOFTNESS: usize = 5;
+    pub(crate) const STIFFENER: usize = 6;
     pub(crate) const TWIST_MASS: usize = 7;
     pub(crate) const NORMAL: usize = 8;
     pub(crate) const HEADER: usize = 8 + N;
@@ -44,17 +46,16 @@ impl<const N: usize> Layout<N> {
     pub(crate) const TWIST_IMPULSE: usize = 2 * Self::K + 2;
     pub(crate) const TWIST_ROW: usize = 2 * Self::K + 3;
 
-    // A normal row: arms, gap at the start of the step, base velocity and acceleration along the normal, mass, impulse,
-    // largest impulse of the step, distance from the centre of friction.
+    // A normal row: arms, gap at the start of the step, base velocity and acceleration along the normal, impulse,
+    // largest impulse of the step, place in the tangent space from the centre of friction.
     pub(crate) const POINT_ARM_A: usize = 0;
     pub(crate) const POINT_GAP: usize = 2 * Self::K;
     pub(crate) const POINT_VELOCITY: usize = 2 * Self::K + 1;
     pub(crate) const POINT_ACCELERATION: usize = 2 * Self::K + 2;
-    pub(crate) const POINT_MASS: usize = 2 * Self::K + 3;
-    pub(crate) const POINT_IMPULSE: usize = 2 * Self::K + 4;
-    pub(crate) const POINT_MAX_IMPULSE: usize = 2 * Self::K + 5;
-    pub(crate) const POINT_LEVER: usize = 2 * Self::K + 6;
-    pub(crate) const POINT_ROW: usize = 2 * Self::K + 7;
+    pub(crate) const POINT_IMPULSE: usize = 2 * Self::K + 3;
+    pub(crate) const POINT_MAX_IMPULSE: usize = 2 * Self::K + 4;
+    pub(crate) const POINT_LEVER: usize = 2 * Self::K + 5;
+    pub(crate) const POINT_ROW: usize = 2 * Self::K + 5 + Self::SLIDES;
 
     /// First normal row.
     #[inline(always)]
@@ -62,9 +63,15 @@ impl<const N: usize> Layout<N> {
         Self::TWIST_ROWS + block.twists * Self::TWIST_ROW
     }
 
+    /// First of the response matrix of the normal rows, upper triangle by rows.
+    #[inline(always)]
+    pub(crate) fn response_start(block: &Block) -> usize {
+        Self::points_start(block) + block.points * Self::POINT_ROW
+    }
+
     /// Lanes of a whole block.
     #[inline(always)]
     pub(crate) fn block_len(block: &Block) -> usize {
-        Self::points_start(block) + block.points * Self::POINT_ROW
+        Self::response_start(block) + block.points * (block.points + 1) / 2
     }
 }

@@ -9,6 +9,7 @@
 //! The rows of a group are lanes side by side in one flat array, in the order in which solving reads them.
 
 mod layout;
+mod normal;
 mod prepare;
 mod solve;
 
@@ -41,6 +42,8 @@ pub(crate) struct Block {
 pub(crate) struct ContactRows {
     pub(crate) blocks: Vec<Block>,
     pub(crate) rows: Vec<Lanes>,
+    /// Room for the problem of one block.
+    problem: Box<normal::NormalProblem>,
 }
 
 impl ContactRows {

@@ -2,6 +2,9 @@
 
 use hyperbody_math::{Bivector, Vector};
 
+use hyperbody_collision::MAX_POINTS;
+
+use super::normal::upper;
 use super::{Block, Layout};
 use crate::pairs::Pair;
 use crate::solver::bodies::{MAX_PLANES, Sizes, SolverBody};
@@ -16,6 +19,10 @@ pub(crate) struct Prepare {
     /// Against the immovable: twice as stiff, because there the other side won't give.
     pub(crate) stiff: Softness,
 }
+
+/// What rigid rows have in place of softness, in parts of the inverse mass that a point carries: large against rounding in
+/// single precision, small against the response.
+const RIGID_SHARE: f64 = 1e-3;
 
 /// One contact while its lane is filled.
 struct Lane<'a, const N: usize> {
@@ -56,7 +63,7 @@ impl Prepare {
         if block.twists > 0 {
             lane.twisting(pair, &tangents);
         }
-        lane.points(pair, centre, Layout::<N>::points_start(block));
+        lane.points(pair, centre, &tangents, block);
     }
 }
 
@@ -94,8 +101,10 @@ impl<const N: usize> Lane<'_, N> {
         self.set(Layout::<N>::FRICTION, pair.friction);
         self.set(Layout::<N>::RESTITUTION, pair.restitution);
         self.set(Layout::<N>::BIAS_RATE, softness.bias_rate);
-        self.set(Layout::<N>::MASS_SCALE, softness.mass_scale);
-        self.set(Layout::<N>::IMPULSE_SCALE, softness.impulse_scale);
+        // The spring is the manifold's, shared evenly by its points: a patch is as stiff with sixteen corners as with one.
+        let share = self.inverse_mass_sum() * pair.manifold.points().len() as f64;
+        self.set(Layout::<N>::SOFTNESS, share * softness.impulse_scale / softness.mass_scale);
+        self.set(Layout::<N>::STIFFENER, share * RIGID_SHARE);
         for i in 0..N {
             self.set(Layout::<N>::NORMAL + i, pair.manifold.normal[i]);
         }
@@ -179,24 +188,33 @@ impl<const N: usize> Lane<'_, N> {
         self.set(Layout::<N>::TWIST_MASS, if largest > 0.0 { 1.0 / largest } else { 0.0 });
     }
 
-    fn points(&mut self, pair: &Pair<N>, centre: Vector<N>, start: usize) {
+    fn points(&mut self, pair: &Pair<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
         let normal = pair.manifold.normal;
-        for (index, point) in pair.manifold.points().iter().enumerate() {
-            let at = start + index * Layout::<N>::POINT_ROW;
+        let points = pair.manifold.points();
+        let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); MAX_POINTS];
+        for (index, point) in points.iter().enumerate() {
+            let at = Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW;
             let r = self.offsets(point.position);
             let (velocity, acceleration) = self.base_motion(r);
-            let (arm_a, arm_b) = (self.a.arm(r.a, normal), self.b.arm(r.b, normal));
-            let mut response = self.inverse_mass_sum();
-            for k in 0..Sizes::<N>::K {
-                response += arm_a[k] * arm_a[k] + arm_b[k] * arm_b[k];
-            }
-            self.set_arms(at + Layout::<N>::POINT_ARM_A, &arm_a, &arm_b);
+            arms[index] = (self.a.arm(r.a, normal), self.b.arm(r.b, normal));
+            self.set_arms(at + Layout::<N>::POINT_ARM_A, &arms[index].0, &arms[index].1);
             self.set(at + Layout::<N>::POINT_GAP, point.separation);
             self.set(at + Layout::<N>::POINT_VELOCITY, velocity.dot(normal));
             self.set(at + Layout::<N>::POINT_ACCELERATION, acceleration.dot(normal));
-            self.set(at + Layout::<N>::POINT_MASS, 1.0 / response);
             self.set(at + Layout::<N>::POINT_IMPULSE, f64::from(pair.normal_impulses[index]));
-            self.set(at + Layout::<N>::POINT_LEVER, point.position.distance(centre));
+            for t in 0..Layout::<N>::SLIDES {
+                self.set(at + Layout::<N>::POINT_LEVER + t, (point.position - centre).dot(tangents[t]));
+            }
+        }
+        let start = Layout::<N>::response_start(block);
+        for i in 0..points.len() {
+            for j in i..points.len() {
+                let mut response = self.inverse_mass_sum();
+                for k in 0..Sizes::<N>::K {
+                    response += arms[i].0[k] * arms[j].0[k] + arms[i].1[k] * arms[j].1[k];
+                }
+                self.set(start + upper(block.points, i, j), response);
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The passes over contact rows: warm start, solve, bounce. This is where the time of a step goes.
 
+use super::normal::{NormalProblem, upper};
 use super::{Block, ContactRows, Layout};
 use crate::solver::bodies::Sizes;
 use crate::solver::lanes::{Lanes, Real, WIDTH};
@@ -36,11 +37,6 @@ struct Pairing<const N: usize> {
 
 const MAX: usize = crate::solver::bodies::MAX_PLANES;
 
-/// Sweeps over the normal rows of a manifold each time it is solved. Its points hold each other up through one and the
-/// same body, N of them would do, so they converge far more slowly than the contacts of a pile; a second sweep, while
-/// all is in registers, stills a stack of twenty that one sweep leaves creeping.
-const NORMAL_SWEEPS: usize = 2;
-
 /// The passes for one dimension.
 pub(crate) struct Passes<const N: usize>;
 
@@ -64,7 +60,7 @@ impl<const N: usize> Passes<N> {
             }
             let normal = &rows[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
             let mut sum = Lanes::ZERO;
-            for row in rows[points_start..].chunks_exact(Layout::<N>::POINT_ROW) {
+            for row in rows[points_start..Layout::<N>::response_start(block)].chunks_exact(Layout::<N>::POINT_ROW) {
                 let impulse = row[Layout::<N>::POINT_IMPULSE];
                 sum += impulse;
                 p.apply_angular(&row[..2 * Self::K], impulse);
@@ -74,20 +70,26 @@ impl<const N: usize> Passes<N> {
         }
     }
 
-    /// One Gauss–Seidel sweep over all rows.
+    /// One Gauss–Seidel sweep over all manifolds.
     #[inline(always)]
     pub(crate) fn solve(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
-        for block in &contacts.blocks {
-            let rows = &mut contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
+        let ContactRows { blocks, rows, problem } = contacts;
+        for block in blocks.iter() {
+            let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
             let mut p = Pairing::<N>::gather(block, rows, state);
-            let (head, points) = rows.split_at_mut(Layout::<N>::points_start(block));
+            let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
+            let (points, response) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
             // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
             // load, so that a sliding body loses exactly μ times its weight.
             if times.push {
                 Self::rub(block, head, points, &mut p, times);
-                Self::press(block, head, points, &mut p, times, state);
+                let displacement = Pairing::<N>::gather_displacement(block, head, state);
+                Self::press(head, points, &mut p, times, &displacement, problem);
+                Self::finish_press(block, head, points, response, &mut p, problem);
             } else {
-                Self::press(block, head, points, &mut p, times, state);
+                let displacement = Pairing::<N>::gather_displacement(block, head, state);
+                Self::press(head, points, &mut p, times, &displacement, problem);
+                Self::finish_press(block, head, points, response, &mut p, problem);
                 Self::rub(block, head, points, &mut p, times);
             }
             p.scatter(block, state);
@@ -132,12 +134,15 @@ impl<const N: usize> Passes<N> {
                 }
             }
         }
-        let mut length_sq = Lanes::ZERO;
+        // In parts of the limit, whose square might vanish in single precision.
+        let inverse_limit = Lanes::splat(1.0).div(limit.max(Lanes::splat(Real::MIN_POSITIVE)));
+        let mut ratio_sq = Lanes::ZERO;
         for (t, row) in rows.chunks_exact(Layout::<N>::SLIDE_ROW).enumerate() {
             wanted[t] += row[Layout::<N>::SLIDE_IMPULSE];
-            length_sq += wanted[t] * wanted[t];
+            let ratio = wanted[t] * inverse_limit;
+            ratio_sq += ratio * ratio;
         }
-        let factor = factor_into_ball(length_sq, limit);
+        let factor = Lanes::splat(1.0).div(ratio_sq.sqrt().max(Lanes::splat(1.0)));
         for (t, row) in rows.chunks_exact_mut(Layout::<N>::SLIDE_ROW).enumerate() {
             let impulse = wanted[t] * factor;
             let change = impulse - row[Layout::<N>::SLIDE_IMPULSE];
@@ -149,24 +154,20 @@ impl<const N: usize> Passes<N> {
 
     #[inline(always)]
     fn twist(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
-        let mut load = Lanes::ZERO;
-        for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
-            load += row[Layout::<N>::POINT_IMPULSE] * row[Layout::<N>::POINT_LEVER];
-        }
-        let limit = head[Layout::<N>::FRICTION] * load;
-        let mass = head[Layout::<N>::TWIST_MASS];
+        let (friction, mass) = (head[Layout::<N>::FRICTION], head[Layout::<N>::TWIST_MASS]);
         let elapsed = Lanes::splat(times.elapsed);
         let rows = &mut head[Layout::<N>::TWIST_ROWS..];
         let mut wanted = [Lanes::ZERO; MAX];
-        let mut length_sq = Lanes::ZERO;
+        let mut largest = Lanes::splat(Real::MIN_POSITIVE);
         for (t, row) in rows.chunks_exact(Layout::<N>::TWIST_ROW).enumerate() {
             let velocity = row[Layout::<N>::TWIST_VELOCITY]
                 + elapsed * row[Layout::<N>::TWIST_ACCELERATION]
                 + p.measure_angular(&row[..2 * Self::K]);
             wanted[t] = row[Layout::<N>::TWIST_IMPULSE] - mass * velocity;
-            length_sq += wanted[t] * wanted[t];
+            largest = largest.max(wanted[t]).max(-wanted[t]);
         }
-        let factor = factor_into_ball(length_sq, limit);
+        let limit = friction * Self::twisting_load(points, &wanted, largest);
+        let factor = limit.div(largest).min(Lanes::splat(1.0));
         for (t, row) in rows.chunks_exact_mut(Layout::<N>::TWIST_ROW).enumerate() {
             let impulse = wanted[t] * factor;
             let change = impulse - row[Layout::<N>::TWIST_IMPULSE];
@@ -175,33 +176,62 @@ impl<const N: usize> Passes<N> {
         }
     }
 
+    /// What a unit of friction coefficient can hold against the twist B, in parts of B over `largest`: the points at ρ
+    /// rub against their motion B·ρ, which gives the torque Σλ|B·ρ|/|B| in the direction of B. So extent across the
+    /// planes of the twist does not count.
+    #[inline(always)]
+    fn twisting_load(points: &[Lanes], twist: &[Lanes; MAX], largest: Lanes) -> Lanes {
+        let slides = Layout::<N>::SLIDES;
+        let scale = Lanes::splat(1.0).div(largest);
+        let mut length_sq = Lanes::ZERO;
+        let mut unit = [Lanes::ZERO; MAX];
+        for t in 0..Layout::<N>::TWISTS {
+            unit[t] = twist[t] * scale;
+            length_sq += unit[t] * unit[t];
+        }
+        let mut load = Lanes::ZERO;
+        for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
+            let lever = &row[Layout::<N>::POINT_LEVER..];
+            let mut motion = [Lanes::ZERO; N];
+            let mut plane = 0;
+            for s in 0..slides {
+                for t in s + 1..slides {
+                    motion[s] += unit[plane] * lever[t];
+                    motion[t] -= unit[plane] * lever[s];
+                    plane += 1;
+                }
+            }
+            let mut motion_sq = Lanes::ZERO;
+            for value in &motion[..slides] {
+                motion_sq += *value * *value;
+            }
+            load += row[Layout::<N>::POINT_IMPULSE] * motion_sq.sqrt();
+        }
+        load.div(length_sq.max(Lanes::splat(1.0)))
+    }
+
+    /// States the problem of a block's normal rows.
     #[inline(always)]
     fn press(
-        block: &Block,
         head: &[Lanes],
-        points: &mut [Lanes],
+        points: &[Lanes],
         p: &mut Pairing<N>,
         times: &PassTimes,
-        state: &[Real],
+        displacement: &Pairing<N>,
+        problem: &mut NormalProblem,
     ) {
         let normal = &head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
-        let displacement = Pairing::<N>::gather_displacement(block, head, state);
         let zero = Lanes::ZERO;
-        let one = Lanes::splat(1.0);
         let elapsed = Lanes::splat(times.elapsed);
         let (moved, moved_sq) = (Lanes::splat(times.moved), Lanes::splat(times.moved_sq));
         let inverse_h = Lanes::splat(times.inverse_h);
-        let (bias_rate, mass_scale, impulse_scale) = if times.push {
-            (head[Layout::<N>::BIAS_RATE], head[Layout::<N>::MASS_SCALE], head[Layout::<N>::IMPULSE_SCALE])
-        } else {
-            (zero, one, zero)
-        };
+        let (bias_rate, softness) =
+            if times.push { (head[Layout::<N>::BIAS_RATE], head[Layout::<N>::SOFTNESS]) } else { (zero, zero) };
         let slop = Lanes::splat(times.slop);
         let push_limit = Lanes::splat(-times.push_out_speed);
         let linear_gap = displacement.measure_linear(normal);
-        for index in 0..NORMAL_SWEEPS * block.points {
-            let at = index % block.points * Layout::<N>::POINT_ROW;
-            let row = &mut points[at..at + Layout::<N>::POINT_ROW];
+        let linear_velocity = p.measure_linear(normal);
+        for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             let gap = row[Layout::<N>::POINT_GAP]
                 + moved * row[Layout::<N>::POINT_VELOCITY]
                 + moved_sq * row[Layout::<N>::POINT_ACCELERATION]
@@ -209,63 +239,85 @@ impl<const N: usize> Passes<N> {
                 + displacement.measure_angular(&row[..2 * Self::K]);
             let velocity = row[Layout::<N>::POINT_VELOCITY]
                 + elapsed * row[Layout::<N>::POINT_ACCELERATION]
-                + p.measure_linear(normal)
+                + linear_velocity
                 + p.measure_angular(&row[..2 * Self::K]);
             // Ahead of touching: approach may close the gap within the substep. Overlapping: pushed apart softly.
             let overlap = (gap + slop).min(zero);
             let bias = gap.select_positive(gap * inverse_h, (bias_rate * overlap).max(push_limit));
-            let mass = row[Layout::<N>::POINT_MASS] * gap.select_positive(one, mass_scale);
-            let give_back = gap.select_positive(zero, impulse_scale);
-            let held = row[Layout::<N>::POINT_IMPULSE];
-            let impulse = (held - mass * (velocity + bias) - give_back * held).max(zero);
+            problem.excess[index] = velocity + bias;
+            problem.softness[index] = gap.select_positive(zero, softness);
+        }
+    }
+
+    /// Solves it and applies the change of impulses.
+    #[inline(always)]
+    fn finish_press(
+        block: &Block,
+        head: &[Lanes],
+        points: &mut [Lanes],
+        response: &[Lanes],
+        p: &mut Pairing<N>,
+        problem: &mut NormalProblem,
+    ) {
+        let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
+        for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
+            problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
+            // Lanes with fewer points have no response there.
+            problem.allowed[index] = response[upper(block.points, index, index)].select_positive(one, zero);
+        }
+        problem.solve(response, block.points, head[Layout::<N>::STIFFENER]);
+        Self::apply_solution(head, points, p, problem);
+    }
+
+    #[inline(always)]
+    fn apply_solution(head: &[Lanes], points: &mut [Lanes], p: &mut Pairing<N>, problem: &NormalProblem) {
+        let mut sum = Lanes::ZERO;
+        for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
+            let impulse = problem.impulse[index];
             row[Layout::<N>::POINT_IMPULSE] = impulse;
             row[Layout::<N>::POINT_MAX_IMPULSE] = row[Layout::<N>::POINT_MAX_IMPULSE].max(impulse);
-            let change = impulse - held;
-            p.apply_linear(normal, change);
+            let change = impulse - problem.held[index];
+            sum += change;
             p.apply_angular(&row[..2 * Self::K], change);
         }
+        p.apply_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N], sum);
     }
 
     /// Gives back the share e of the approach speed at points that were pressed in this step.
     #[inline(always)]
     pub(crate) fn bounce(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
-        let zero = Lanes::ZERO;
+        let ContactRows { blocks, rows, problem } = contacts;
+        let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
         let elapsed = Lanes::splat(times.elapsed);
         let threshold = Lanes::splat(-times.restitution_threshold);
-        for block in contacts.blocks.iter().filter(|block| block.bounces) {
-            let rows = &mut contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
+        for block in blocks.iter().filter(|block| block.bounces) {
+            let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
             let mut p = Pairing::<N>::gather(block, rows, state);
-            let (head, points) = rows.split_at_mut(Layout::<N>::points_start(block));
-            let normal = &head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
+            let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
+            let (points, response) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
+            let linear_velocity = p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
             let restitution = head[Layout::<N>::RESTITUTION];
-            for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
+            for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
                 let approach = row[Layout::<N>::POINT_VELOCITY];
                 let velocity = approach
                     + elapsed * row[Layout::<N>::POINT_ACCELERATION]
-                    + p.measure_linear(normal)
+                    + linear_velocity
                     + p.measure_angular(&row[..2 * Self::K]);
-                let held = row[Layout::<N>::POINT_IMPULSE];
-                let wanted = (held - row[Layout::<N>::POINT_MASS] * (velocity + restitution * approach)).max(zero);
-                let pressed = row[Layout::<N>::POINT_MAX_IMPULSE].select_positive(wanted, held);
-                let bounced = restitution.select_positive(pressed, held);
-                let impulse = (threshold - approach).select_positive(bounced, held);
-                row[Layout::<N>::POINT_IMPULSE] = impulse;
-                let change = impulse - held;
-                p.apply_linear(normal, change);
-                p.apply_angular(&row[..2 * Self::K], change);
+                let fast = (threshold - approach).select_positive(restitution, zero);
+                problem.excess[index] = velocity + fast * approach;
+                problem.softness[index] = zero;
+                problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
+                problem.allowed[index] = row[Layout::<N>::POINT_MAX_IMPULSE].select_positive(one, zero);
             }
+            problem.solve(response, block.points, head[Layout::<N>::STIFFENER]);
+            // Lanes that don't bounce keep what they have.
+            for index in 0..block.points {
+                problem.impulse[index] = restitution.select_positive(problem.impulse[index], problem.held[index]);
+            }
+            Self::apply_solution(head, points, &mut p, problem);
             p.scatter(block, state);
         }
     }
-}
-
-/// The factor that shortens a vector to at most `limit`: min(1, limit/length).
-#[inline(always)]
-fn factor_into_ball(length_sq: Lanes, limit: Lanes) -> Lanes {
-    let one = Lanes::splat(1.0);
-    // A zero vector stays zero whatever the factor; the smallest normal number keeps the division finite.
-    let length = length_sq.sqrt().max(Lanes::splat(Real::MIN_POSITIVE));
-    limit.div(length).min(one)
 }
 
 impl<const N: usize> Pairing<N> {
