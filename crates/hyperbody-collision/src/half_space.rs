@@ -29,27 +29,27 @@ pub(crate) fn collide<const N: usize>(
         return;
     }
     reducer.candidates.clear();
-    let mut gather = |point: Vector<N>, id: u32| {
+    let mut gather = |point: Vector<N>, id: u32, class: Option<bool>| {
         let separation = height - point.dot(toward_plane);
         if separation <= margin {
-            reducer.candidates.push(Candidate { position: point, separation, id });
+            reducer.candidates.push(Candidate { position: point, separation, id, class });
         }
     };
     match &shape.core {
-        Core::Point => gather(Vector::ZERO, 0),
+        Core::Point => gather(Vector::ZERO, 0, None),
         Core::Segment { half } => {
-            gather(*half, 0);
-            gather(-*half, 1);
+            gather(*half, 0, None);
+            gather(-*half, 1, None);
         }
         Core::Box { half_extents } => {
             for corner in 0..1_u32 << N {
                 let sign = |axis: usize| if corner >> axis & 1 == 0 { half_extents[axis] } else { -half_extents[axis] };
-                gather(Vector::from_fn(sign), corner);
+                gather(Vector::from_fn(sign), corner, Some(corner.count_ones() % 2 == 1));
             }
         }
         Core::Polytope(polytope) => {
             for (index, &vertex) in polytope.vertices().iter().enumerate() {
-                gather(vertex, index as u32);
+                gather(vertex, index as u32, None);
             }
         }
     }

@@ -230,9 +230,43 @@ impl<const N: usize> Plan<'_, N> {
                     position: vertex.point - normal * (0.5 * gap - lean),
                     separation: gap - rounding,
                     id: clipper.feature_id(index, incident_parity).wrapping_add(both_facets),
+                    class: None,
                 });
             }
         }
+        if let Faces::Box(_) = self.reference.faces
+            && 1 << (N - 2) == max_points(N)
+            && reducer.candidates.len() > max_points(N)
+        {
+            classify(self.facet / 2, &mut reducer.candidates);
+        }
         Some(least)
+    }
+}
+
+/// Puts the corner of each orthant of a box's facet (`across` is the axis along its normal) into the class of even or odd
+/// corners. Rounding may leave several vertices where two planes nearly coincide; one an orthant is enough.
+fn classify<const N: usize>(across: usize, candidates: &mut [Candidate<N>]) {
+    let (mut lower, mut upper) = (candidates[0].position, candidates[0].position);
+    for candidate in candidates.iter() {
+        (lower, upper) = (lower.min(candidate.position), upper.max(candidate.position));
+    }
+    let middle = (lower + upper) * 0.5;
+    let along = |axis: usize| axis != across;
+    let mut corners = [None; 32];
+    for (index, candidate) in candidates.iter().enumerate() {
+        let offset = candidate.position - middle;
+        let orthant =
+            (0..N).filter(|&axis| along(axis)).fold(0, |bits, axis| bits << 1 | usize::from(offset[axis] < 0.0));
+        let distance = (0..N).filter(|&axis| along(axis)).map(|axis| offset[axis].abs()).sum::<f64>();
+        let corner: &mut Option<(usize, f64)> = &mut corners[orthant];
+        if corner.is_none_or(|(_, most)| distance > most) {
+            *corner = Some((index, distance));
+        }
+    }
+    for (orthant, corner) in corners.iter().enumerate() {
+        if let Some((index, _)) = corner {
+            candidates[*index].class = Some(orthant.count_ones() % 2 == 1);
+        }
     }
 }

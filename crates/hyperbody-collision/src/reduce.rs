@@ -1,6 +1,6 @@
 //! Choosing the few points of a patch that hold it.
 //!
-//! First the deepest, then, one by one, the point farthest from the affine hull of those chosen (which gives a large
+//! Of a patch like a cube with twice as many corners as may be chosen, every second. Of others first the deepest, then, one by one, the point farthest from the affine hull of those chosen (which gives a large
 //! simplex that spans the patch), then the point farthest from all chosen, each with the point opposite to it across the
 //! middle of the patch if there is one: a box then stands as deep on one side as on the other. Distances within a few percent of each
 //! other go to the point that was chosen in the previous step, then to the smaller id, so that the choice is stable.
@@ -15,6 +15,8 @@ pub(crate) struct Candidate<const N: usize> {
     pub(crate) position: Vector<N>,
     pub(crate) separation: f64,
     pub(crate) id: u32,
+    /// Whether it is an odd or an even corner of a patch like a box; `None` of others.
+    pub(crate) class: Option<bool>,
 }
 
 /// Relative difference of squared distances that rounding makes.
@@ -46,6 +48,7 @@ impl<const N: usize> Reducer<N> {
             self.candidates.truncate(limit);
             return;
         }
+        self.keep_every_second(limit, previous, size);
         self.choose_first(previous, size);
         let mut chosen = 1;
         // Each turn chooses one point.
@@ -77,6 +80,24 @@ impl<const N: usize> Reducer<N> {
             chosen += 1;
         }
         self.candidates.truncate(chosen);
+    }
+
+    /// Keeps one class of corners if it has `limit` of them and one as deep as any: every second corner of a cube spans it
+    /// and each of its faces as evenly as all of them do. The class of the previous step stays if it can.
+    fn keep_every_second(&mut self, limit: usize, previous: &[u32], size: f64) {
+        if self.candidates.len() < 2 * limit {
+            return;
+        }
+        let of_class = |class: bool| self.candidates.iter().filter(move |candidate| candidate.class == Some(class));
+        let least = self.candidates.iter().map(|c| c.separation).fold(f64::INFINITY, f64::min);
+        let suits = |class: &bool| {
+            let deep = of_class(*class).any(|c| c.separation <= least + limits::EQUAL_DEPTH * size);
+            deep && of_class(*class).count() == limit
+        };
+        let known = of_class(true).any(|candidate| previous.contains(&candidate.id));
+        if let Some(kept) = [known, !known].into_iter().find(suits) {
+            self.candidates.retain(|candidate| candidate.class == Some(kept));
+        }
     }
 
     /// The candidate opposite to the first chosen point that has no partner yet.

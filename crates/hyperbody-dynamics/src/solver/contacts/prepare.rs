@@ -154,8 +154,8 @@ impl<const N: usize> Lane<'_, N> {
     }
 
     /// Twisting rows are the planes of the tangent space; their bivectors are orthonormal. One mass serves them all: the
-    /// inverse of the largest row sum of their response matrix, exact for isotropic bodies and safe for others
-    /// (Gershgorin).
+    /// inverse of a bound on the largest eigenvalue of their response matrix, mean + deviation·√(k−1) (H. Wolkowicz and
+    /// G. P. H. Styan, 1980), exact for isotropic bodies, safe for others, and the same for every choice of tangents.
     fn twisting(&mut self, pair: &Pair<N>, tangents: &[Vector<N>; N]) {
         let spin = self.b.angular_velocity - self.a.angular_velocity;
         let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
@@ -173,18 +173,21 @@ impl<const N: usize> Lane<'_, N> {
                 row += 1;
             }
         }
-        let mut largest: f64 = 0.0;
+        let (mut trace, mut trace_of_square) = (0.0, 0.0);
         for s in 0..row {
-            let mut sum = 0.0;
             for t in 0..row {
-                let mut response = 0.0;
+                let mut response: f64 = 0.0;
                 for plane in 0..Sizes::<N>::K {
                     response += arms[s].0[plane] * arms[t].0[plane] + arms[s].1[plane] * arms[t].1[plane];
                 }
-                sum += f64::abs(response);
+                trace += if s == t { response } else { 0.0 };
+                trace_of_square += response * response;
             }
-            largest = largest.max(sum);
         }
+        let count = row.max(1) as f64;
+        let mean = trace / count;
+        let variance = (trace_of_square / count - mean * mean).max(0.0);
+        let largest = mean + (variance * (count - 1.0)).sqrt();
         self.set(Layout::<N>::TWIST_MASS, if largest > 0.0 { 1.0 / largest } else { 0.0 });
     }
 
