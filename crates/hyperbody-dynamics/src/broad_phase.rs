@@ -37,9 +37,6 @@ impl<const N: usize> World<N> {
             collider.world_from_collider = body.world_from_body() * collider.body_from_collider;
             let (Piece::Convex(convex), Some(proxy)) = (&collider.piece, collider.proxy) else { continue };
             let tight = convex.aabb(&collider.world_from_collider);
-            if !finite(&tight) {
-                continue;
-            }
             // All that the body can reach within the step; twice as far when the box is made anew.
             let turning = body.angular_velocity.norm() * body.radius * self.dt;
             let motion = body.velocity * self.dt;
@@ -96,6 +93,7 @@ impl<const N: usize> World<N> {
             if !self.pairs.contains(a, b)
                 && let Some(pair) = self.new_pair(a, b)
             {
+                self.wake_beside_newcomer(&pair);
                 self.pairs.insert(pair);
             }
         }
@@ -119,11 +117,21 @@ impl<const N: usize> World<N> {
             restitution: body_a.material.combined_restitution(&body_b.material),
             manifold: Manifold::default(),
             normal_impulses: [0.0; hyperbody_collision::MAX_POINTS],
+            step_impulses: [0.0; hyperbody_collision::MAX_POINTS],
             friction_impulse: Vector::ZERO,
             twist_impulse: Bivector::ZERO,
             recycled: None,
             cache: PairCache::default(),
         })
+    }
+
+    /// A sleeper that finds something static or kinematic beside it, put there since it fell asleep, wakes to feel it.
+    fn wake_beside_newcomer(&mut self, pair: &Pair<N>) {
+        for (slot, other) in [(pair.body_a, pair.body_b), (pair.body_b, pair.body_a)] {
+            if self.bodies.at(other).is_some_and(|body| body.kind != BodyKind::Dynamic) {
+                self.islands.wake_body(slot, &mut self.bodies);
+            }
+        }
     }
 
     fn are_joined(&self, body: &Body<N>, other: u32) -> bool {
@@ -140,6 +148,10 @@ impl<const N: usize> World<N> {
             self.islands.wake_body(slot, &mut self.bodies);
             let Some(body) = self.bodies.at_mut(slot) else { continue };
             body.slow_time = 0.0;
+            if body.kind != BodyKind::Dynamic || body.quarantined {
+                self.wake_neighbours(slot);
+            }
+            let Some(body) = self.bodies.at(slot) else { continue };
             for &collider in &body.colliders {
                 if let Some(collider) = &mut self.colliders[collider as usize] {
                     // A teleported body must be looked at, static ones too.
@@ -151,6 +163,16 @@ impl<const N: usize> World<N> {
         self.wake_requests = requests;
         let bodies: &Arena<Body<N>, BodyHandle> = &self.bodies;
         self.quarantined.retain(|&handle| bodies.get(handle).is_some_and(|body| body.quarantined));
+    }
+}
+
+impl<const N: usize> World<N> {
+    /// Wakes what lies beside a body that was moved by hand: it may have been its support.
+    fn wake_neighbours(&mut self, slot: u32) {
+        for pair in self.pairs.iter().filter(|pair| pair.body_a == slot || pair.body_b == slot) {
+            let other = if pair.body_a == slot { pair.body_b } else { pair.body_a };
+            self.islands.wake_body(other, &mut self.bodies);
+        }
     }
 }
 
@@ -168,10 +190,6 @@ fn query<const N: usize>(tree: &DynamicTree<N>, aabb: &Aabb<N>, stack: &mut Vec<
 /// The box and where it will be a step later.
 fn ahead<const N: usize>(tight: &Aabb<N>, motion: Vector<N>) -> Aabb<N> {
     tight.union(&Aabb { lower: tight.lower + motion, upper: tight.upper + motion })
-}
-
-fn finite<const N: usize>(aabb: &Aabb<N>) -> bool {
-    aabb.lower.is_finite() && aabb.upper.is_finite()
 }
 
 /// Whether fattened boxes, or a half-space and a fattened box, have a point in common.

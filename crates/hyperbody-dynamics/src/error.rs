@@ -18,7 +18,7 @@ pub struct WorldError {
 pub enum WorldErrorKind {
     /// A number is not finite, or outside its range.
     BadNumber,
-    /// The handle is of a body or joint that no longer exists, or of another world.
+    /// The handle is of a body or joint that no longer exists.
     StaleHandle,
     /// The shape cannot be used this way: a dynamic half-space, for example.
     BadShape,

@@ -31,15 +31,18 @@ impl<const N: usize> World<N> {
                 }
                 None => span.turn(body, solved, &change[N..], &displacement[N..]),
             }
-            finish(body, &self.tuning, self.dt);
-            if !body.state_is_finite() {
-                quarantine(body, before);
+            let accelerated = (solved.acceleration * self.dt).norm();
+            let change = (body.velocity - solved.velocity).norm();
+            let falls = accelerated > 0.0 && change > UNSUPPORTED * accelerated;
+            finish(body, &self.tuning, self.dt, falls);
+            if !body.state_is_sound() {
+                body.quarantine(before);
                 if let Some(handle) = self.bodies.handle_at(solved.slot) {
                     self.quarantined.push(handle);
                 }
             }
         }
-        for body in self.bodies.values_mut().filter(|body| body.kind == BodyKind::Kinematic) {
+        for body in self.bodies.values_mut().filter(|body| body.kind == BodyKind::Kinematic && !body.quarantined) {
             body.centre += body.velocity * self.dt;
             if body.angular_velocity != Bivector::ZERO {
                 body.rotation = Rotation::exp(&(body.angular_velocity * self.dt)) * body.rotation;
@@ -89,8 +92,12 @@ impl Span {
     }
 }
 
+/// A body whose velocity changed by more than this share of what gravity and forces alone would make of it is held by
+/// nothing, however slow it still is.
+const UNSUPPORTED: f64 = 0.5;
+
 /// Derived quantities, limits, and how long the body has been slow.
-fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
+fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64, falls: bool) {
     body.force = Vector::ZERO;
     body.torque = Bivector::ZERO;
     body.refresh_angular_velocity();
@@ -104,15 +111,5 @@ fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
         body.angular_velocity *= tuning.max_spin / spin;
     }
     let fastest = speed + spin * body.radius;
-    body.slow_time = if fastest < tuning.sleep_speed { body.slow_time + dt } else { 0.0 };
-}
-
-/// Takes a body out of the simulation, where it last was, at rest.
-fn quarantine<const N: usize>(body: &mut Body<N>, (centre, rotation): (Vector<N>, Rotation<N>)) {
-    body.quarantined = true;
-    body.centre = centre;
-    body.rotation = rotation;
-    body.velocity = Vector::ZERO;
-    body.angular_velocity = Bivector::ZERO;
-    body.angular_momentum = Bivector::ZERO;
+    body.slow_time = if fastest < tuning.sleep_speed && !falls { body.slow_time + dt } else { 0.0 };
 }

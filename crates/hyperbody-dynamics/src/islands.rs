@@ -7,7 +7,8 @@
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::{BodyHandle, World};
+use crate::pairs::Pair;
+use crate::{BodyHandle, BodyKind, World};
 
 /// Sleeping islands, and the buffers of union–find.
 #[derive(Clone, Debug)]
@@ -93,9 +94,8 @@ impl<const N: usize> World<N> {
             for slot in 0..self.pairs.slots().len() {
                 #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
                 let Some(pair) = self.pairs.get(slot as u32) else { continue };
-                let touching = pair.manifold.points().iter().any(|point| point.separation <= 0.0);
                 let (a, b) = (pair.body_a, pair.body_b);
-                if touching {
+                if self.touches_within_step(pair) {
                     woken |= self.wake_across(a, b);
                 }
             }
@@ -109,6 +109,16 @@ impl<const N: usize> World<N> {
                 return;
             }
         }
+    }
+
+    /// Whether some point of a pair touches, or will before the step ends: the solver would press there.
+    fn touches_within_step(&self, pair: &Pair<N>) -> bool {
+        let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return false };
+        let velocity = |body: &Body<N>, place| body.velocity + body.angular_velocity.act_on(place - body.centre);
+        pair.manifold.points().iter().any(|point| {
+            let closing = (velocity(a, point.position) - velocity(b, point.position)).dot(pair.manifold.normal);
+            point.separation <= self.tuning.slop + closing.max(0.0) * self.dt
+        })
     }
 
     /// Wakes the one of two bodies that sleeps if the other one is up and about.
@@ -173,6 +183,7 @@ impl<const N: usize> World<N> {
         }
         self.islands.least_slow_time.clear();
         self.islands.least_slow_time.resize(slot_count, f64::INFINITY);
+        self.keep_riders_awake();
         for slot in 0..slot_count {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             let slot = slot as u32;
@@ -180,6 +191,23 @@ impl<const N: usize> World<N> {
             let slow_time = if body.can_sleep { body.slow_time } else { 0.0 };
             let root = self.islands.find(slot) as usize;
             self.islands.least_slow_time[root] = self.islands.least_slow_time[root].min(slow_time);
+        }
+    }
+}
+
+impl<const N: usize> World<N> {
+    /// What touches a kinematic body in motion is carried along, however slowly, and may not fall asleep.
+    fn keep_riders_awake(&mut self) {
+        let rides = |body: &Body<N>| {
+            body.kind == BodyKind::Kinematic && (body.velocity.norm_sq() + body.angular_velocity.norm_sq() > 0.0)
+        };
+        for pair in self.pairs.iter().filter(|pair| !pair.manifold.points().is_empty()) {
+            for (rider, carrier) in [(pair.body_a, pair.body_b), (pair.body_b, pair.body_a)] {
+                if self.bodies.at(carrier).is_some_and(rides) {
+                    let root = self.islands.find(rider) as usize;
+                    self.islands.least_slow_time[root] = 0.0;
+                }
+            }
         }
     }
 }

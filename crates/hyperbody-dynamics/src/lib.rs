@@ -9,6 +9,7 @@
 //! | [`material`] | friction, restitution, density |
 //! | [`tuning`] | every tunable number, with its reason |
 //! | `step` | the stages of one step, in order |
+//! | `vetting` | what users set is brought within limits |
 //! | `broad_phase`, `pairs`, `narrow_phase` | who may touch whom, and where |
 //! | `islands` | who rests together and falls asleep together |
 //! | `solver` | contacts and joints become impulses |
@@ -34,6 +35,7 @@ mod solver;
 mod step;
 pub mod timings;
 pub mod tuning;
+mod vetting;
 pub mod world;
 
 pub use body::{BodyDef, BodyKind, BodyMut, BodyRef};
@@ -46,4 +48,5 @@ pub use narrow_phase::ContactRef;
 pub use queries::{BodyHit, Queries, QueryScratch};
 pub use timings::StageTimings;
 pub use tuning::Tuning;
+pub use vetting::POSITION_LIMIT;
 pub use world::{World, WorldDef};

@@ -1,9 +1,9 @@
 //! Where pairs touch: manifolds, and the impulses that carry over to them.
 
-use hyperbody_collision::{ContactPoint, MAX_POINTS, Manifold, Scratch, collide};
+use hyperbody_collision::{MAX_POINTS, Manifold, PairCache, Scratch, collide};
 use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_math::{Pose, Vector};
+use hyperbody_math::{Pose, Rotation, Vector};
 use rayon::prelude::*;
 
 use crate::body::Body;
@@ -17,7 +17,6 @@ use crate::{BodyHandle, World};
 pub struct ContactRef<'a, const N: usize> {
     pub(crate) pair: &'a Pair<N>,
     pub(crate) bodies: (BodyHandle, BodyHandle),
-    pub(crate) substeps: f64,
 }
 
 impl<const N: usize> ContactRef<'_, N> {
@@ -34,10 +33,10 @@ impl<const N: usize> ContactRef<'_, N> {
     }
 
     /// Points of contact: position in the world (m), separation along the normal (m, negative is overlap), and normal
-    /// impulse over the last step (N·s, about; the last substep's times their number).
+    /// impulse over the last step (N·s).
     pub fn points(&self) -> impl Iterator<Item = (Vector<N>, f64, f64)> + '_ {
-        let points = self.pair.manifold.points().iter().zip(&self.pair.normal_impulses);
-        points.map(|(point, impulse)| (point.position, point.separation, f64::from(*impulse) * self.substeps))
+        let points = self.pair.manifold.points().iter().zip(&self.pair.step_impulses);
+        points.map(|(point, impulse)| (point.position, point.separation, f64::from(*impulse)))
     }
 }
 
@@ -111,7 +110,7 @@ impl<const N: usize> World<N> {
     pub fn contacts(&self) -> impl Iterator<Item = ContactRef<'_, N>> {
         self.pairs.iter().filter(|pair| !pair.manifold.points().is_empty()).filter_map(|pair| {
             let bodies = (self.bodies.handle_at(pair.body_a)?, self.bodies.handle_at(pair.body_b)?);
-            Some(ContactRef { pair, bodies, substeps: f64::from(self.substeps) })
+            Some(ContactRef { pair, bodies })
         })
     }
 }
@@ -137,7 +136,7 @@ impl<const N: usize> Update<'_, N> {
         };
         let (Some(body_a), Some(body_b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return };
         if body_a.quarantined || body_b.quarantined {
-            pair.manifold.clear();
+            pair.forget();
             return;
         }
         // Between sleepers and the immovable nothing changed.
@@ -145,7 +144,10 @@ impl<const N: usize> Update<'_, N> {
             return;
         }
         let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
+        // What was left out of the kept manifold was farther apart than the margin, and stays out of reach.
+        let closing = self.closing_distance(body_a, body_b);
         if let Some(kept) = &pair.recycled
+            && closing + self.recycle_distance <= self.margin
             && moved(&kept.a_from_b, &a_from_b, a.reach.max(b.reach)) <= self.recycle_distance
         {
             carry_along(kept, &mut pair.manifold, &a.world_from_collider, &b.world_from_collider);
@@ -157,12 +159,12 @@ impl<const N: usize> Update<'_, N> {
             &a.world_from_collider,
             &b.piece,
             &b.world_from_collider,
-            self.margin + self.closing_distance(body_a, body_b),
+            self.margin + closing,
             &mut pair.cache,
             scratch,
             &mut manifold,
         );
-        self.drop_unreached(&mut manifold, body_a, body_b);
+        self.drop_unreached(&mut manifold, (a, body_a), (b, body_b), scratch);
         carry_over(pair, &manifold, self.margin);
         pair.manifold = manifold;
         let keep = flat_faced(&a.piece) && flat_faced(&b.piece);
@@ -181,22 +183,77 @@ impl<const N: usize> Update<'_, N> {
 
     /// Drops points that are neither near now nor reached within the step at the present velocities: a fast body is met
     /// in time, and one that flies past is not.
-    fn drop_unreached(&self, manifold: &mut Manifold<N>, a: &Body<N>, b: &Body<N>) {
-        let reached = |point: &ContactPoint<N>| {
-            let velocity = |body: &Body<N>| body.velocity + body.angular_velocity.act_on(point.position - body.centre);
-            let closing = (velocity(a) - velocity(b)).dot(manifold.normal);
-            point.separation <= self.margin || point.separation <= closing * self.dt
-        };
-        if manifold.points().iter().all(reached) {
+    fn drop_unreached(
+        &self,
+        manifold: &mut Manifold<N>,
+        a: (&Collider<N>, &Body<N>),
+        b: (&Collider<N>, &Body<N>),
+        scratch: &mut Scratch<N>,
+    ) {
+        if manifold.points().iter().all(|point| point.separation <= self.margin) {
             return;
         }
+        let normal = manifold.normal;
+        let mut first = f64::INFINITY;
         let mut kept = Manifold::EMPTY;
-        kept.normal = manifold.normal;
-        for point in manifold.points().iter().filter(|point| reached(point)) {
-            kept.push(*point);
+        kept.normal = normal;
+        for point in manifold.points() {
+            let half_gap = normal * (0.5 * point.separation);
+            let on_a = velocity_near(a.1, point.position - half_gap);
+            let on_b = velocity_near(b.1, point.position + half_gap);
+            let closing = (on_a - on_b).dot(normal);
+            let near = point.separation <= self.margin;
+            if near || point.separation <= closing * self.dt {
+                kept.push(*point);
+                first = first.min(if near { 0.0 } else { point.separation / closing });
+            }
+        }
+        if first > 0.0 && first.is_finite() && !self.meet_after(first, a, b, scratch) {
+            kept.clear();
         }
         *manifold = kept;
     }
+
+    /// Whether the colliders, moving on as they do, come near each other between the time `first` from now and the end
+    /// of the step; looked at a few times, since what is far apart sideways at one of them may meet at another.
+    fn meet_after(
+        &self,
+        first: f64,
+        (a, body_a): (&Collider<N>, &Body<N>),
+        (b, body_b): (&Collider<N>, &Body<N>),
+        scratch: &mut Scratch<N>,
+    ) -> bool {
+        let mut manifold = Manifold::default();
+        (0..FLYBY_LOOKS).any(|look| {
+            let share = f64::from(look) / f64::from(FLYBY_LOOKS - 1);
+            let time = first + (self.dt - first) * share;
+            let (world_from_a, world_from_b) = (pose_after(a, body_a, time), pose_after(b, body_b, time));
+            let mut cache = PairCache::default();
+            manifold.clear();
+            collide(&a.piece, &world_from_a, &b.piece, &world_from_b, self.margin, &mut cache, scratch, &mut manifold);
+            !manifold.points().is_empty()
+        })
+    }
+}
+
+/// Times in the rest of a step at which fast bodies are looked at for whether they meet or fly past each other.
+const FLYBY_LOOKS: u32 = 4;
+
+/// Velocity of the body's point nearest to a place: its own there, if the place lies within its reach.
+fn velocity_near<const N: usize>(body: &Body<N>, place: Vector<N>) -> Vector<N> {
+    let offset = place - body.centre;
+    let distance = offset.norm();
+    let bounded = body.radius > 0.0 && distance > body.radius;
+    let arm = if bounded { offset * (body.radius / distance) } else { offset };
+    body.velocity + body.angular_velocity.act_on(arm)
+}
+
+/// Where a collider will be if its body moves on freely for a time, s.
+fn pose_after<const N: usize>(collider: &Collider<N>, body: &Body<N>, time: f64) -> Pose<N> {
+    let turn = Rotation::exp(&(body.angular_velocity * time));
+    let now = &collider.world_from_collider;
+    let centre = body.centre + body.velocity * time;
+    Pose::new(turn * now.rotation, centre + turn.rotate(now.translation - body.centre))
 }
 
 /// Round shapes roll out from under their contact points, and theirs are cheap to find anew.
@@ -286,4 +343,5 @@ fn carry_over<const N: usize>(pair: &mut Pair<N>, new: &Manifold<N>, reach: f64)
         pair.twist_impulse = hyperbody_math::Bivector::ZERO;
     }
     pair.normal_impulses = impulses;
+    pair.step_impulses = [0.0; MAX_POINTS];
 }

@@ -25,6 +25,8 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) manifold: Manifold<N>,
     /// Warm start: normal impulse of each point over one substep, N·s.
     pub(crate) normal_impulses: [f32; MAX_POINTS],
+    /// Normal impulse of each point over the last step, N·s.
+    pub(crate) step_impulses: [f32; MAX_POINTS],
     /// Warm start: friction impulse on b over one substep, world frame, N·s.
     pub(crate) friction_impulse: Vector<N>,
     /// Warm start: twisting friction impulse on b over one substep, world frame, N·m·s.
@@ -33,6 +35,19 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) recycled: Option<Recycled<N>>,
     /// What the narrow phase wants to keep.
     pub(crate) cache: PairCache<N>,
+}
+
+impl<const N: usize> Pair<N> {
+    /// Forgets contact and impulses, as if the two had never met.
+    pub(crate) fn forget(&mut self) {
+        self.manifold.clear();
+        self.normal_impulses = [0.0; MAX_POINTS];
+        self.step_impulses = [0.0; MAX_POINTS];
+        self.friction_impulse = Vector::ZERO;
+        self.twist_impulse = Bivector::ZERO;
+        self.recycled = None;
+        self.cache = PairCache::default();
+    }
 }
 
 /// A manifold in the frames of its two colliders, from which it can be made anew while they hardly move.

@@ -11,6 +11,7 @@ use crate::islands::Islands;
 use crate::joint::Joint;
 use crate::pairs::Pairs;
 use crate::solver::Solver;
+use crate::vetting::{POSITION_LIMIT, in_bounds};
 use crate::{
     BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, JointDef, JointHandle, StageTimings, Tuning, WorldError,
     WorldErrorKind,
@@ -21,7 +22,7 @@ use crate::{
 pub struct WorldDef<const N: usize> {
     /// m/s². Default: 9.81 downwards along the second axis.
     pub gravity: Vector<N>,
-    /// Length of a step in seconds, 1e-6..=1. Default 1/60.
+    /// Length of a step in seconds, 1e-6..=1, and at most 0.04 a substep. Default 1/60.
     pub dt: f64,
     /// Parts into which the solver divides a step, 1..=64. Default 4. More make stacks stiffer, at proportional cost.
     pub substeps: u32,
@@ -45,6 +46,10 @@ impl<const N: usize> Default for WorldDef<N> {
         }
     }
 }
+
+/// Longest substep, s. The contact spring can be no stiffer than a quarter of the substep rate: with longer ones, resting
+/// bodies would sink by more than a centimetre.
+const LONGEST_SUBSTEP: f64 = 0.04;
 
 /// A convex piece of a body, as collision sees it.
 #[derive(Clone, Debug)]
@@ -115,6 +120,14 @@ impl<const N: usize> World<N> {
         if !(1..=64).contains(&def.substeps) {
             return Err(WorldError::bad_number(format!("substeps is {}; it must lie between 1 and 64", def.substeps)));
         }
+        if def.dt / f64::from(def.substeps) > LONGEST_SUBSTEP {
+            return Err(WorldError::bad_number(format!(
+                "dt is {} s in {} substeps; contacts need substeps of at most {LONGEST_SUBSTEP} s: take {} substeps or a shorter dt",
+                def.dt,
+                def.substeps,
+                (def.dt / LONGEST_SUBSTEP).ceil()
+            )));
+        }
         if !(1..=256).contains(&def.threads) {
             return Err(WorldError::bad_number(format!("threads is {}; it must lie between 1 and 256", def.threads)));
         }
@@ -162,6 +175,9 @@ impl<const N: usize> World<N> {
     /// If the definition is not valid (see [`BodyDef`]); nothing is added then.
     pub fn add_body(&mut self, def: BodyDef<N>) -> Result<BodyHandle, WorldError> {
         let mut body = Body::new(def)?;
+        if !in_bounds(body.centre) {
+            return Err(out_of_bounds(body.centre));
+        }
         let pieces = body.shape.pieces();
         body.radius = reach(&pieces, body.centre_in_body);
         let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for bodies");
@@ -411,9 +427,18 @@ fn reach<const N: usize>(pieces: &[(Pose<N>, Piece<N>)], centre: Vector<N>) -> f
     })
 }
 
+pub(crate) fn out_of_bounds<const N: usize>(centre: Vector<N>) -> WorldError {
+    WorldError::bad_number(format!(
+        "the centre of mass comes to {:?}; coordinates must lie within ±{POSITION_LIMIT:e} m",
+        centre.0
+    ))
+}
+
 fn stale(what: &str) -> WorldError {
     WorldError::new(
         WorldErrorKind::StaleHandle,
-        format!("there is no such {what} in this world: it was removed, or the handle is of another world"),
+        format!(
+            "there is no such {what} in this world: it was removed (handles are good only in the world that gave them)"
+        ),
     )
 }

@@ -4,6 +4,8 @@ use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
 use super::{Body, BodyKind};
+use crate::vetting::in_bounds;
+use crate::world::out_of_bounds;
 use crate::{Material, WorldError, error::WorldErrorKind};
 
 /// A body as it is between two steps.
@@ -138,9 +140,13 @@ impl<const N: usize> BodyMut<'_, N> {
     /// velocities set to zero.
     ///
     /// # Errors
-    /// If the position is not finite.
+    /// If the position is not finite, or farther out than [`crate::POSITION_LIMIT`].
     pub fn set_pose(&mut self, world_from_body: Pose<N>) -> Result<(), WorldError> {
         finite(world_from_body.translation, "position")?;
+        let centre = world_from_body.transform_point(self.body.centre_in_body);
+        if !in_bounds(centre) {
+            return Err(out_of_bounds(centre));
+        }
         if self.body.quarantined {
             self.body.quarantined = false;
             self.body.force = Vector::ZERO;
@@ -151,7 +157,7 @@ impl<const N: usize> BodyMut<'_, N> {
         }
         let angular_velocity = self.body.angular_velocity;
         self.body.rotation = world_from_body.rotation;
-        self.body.centre = world_from_body.transform_point(self.body.centre_in_body);
+        self.body.centre = centre;
         self.store_angular_velocity(angular_velocity);
         self.wake();
         Ok(())

@@ -6,6 +6,7 @@
 use hyperbody_geometry::{MassProperties, Shape};
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
+use crate::vetting::in_bounds;
 use crate::{BodyDef, BodyKind, Material, WorldError, error::WorldErrorKind};
 
 /// Second moments of a body in its principal frame.
@@ -217,12 +218,27 @@ impl<const N: usize> Body<N> {
         }
     }
 
-    pub(crate) fn state_is_finite(&self) -> bool {
-        self.centre.is_finite()
+    /// Finite, and within [`crate::POSITION_LIMIT`].
+    pub(crate) fn state_is_sound(&self) -> bool {
+        in_bounds(self.centre)
             && self.velocity.is_finite()
             && self.rotation.matrix().is_finite()
             && self.angular_momentum.is_finite()
             && self.angular_velocity.is_finite()
+            && self.force.is_finite()
+            && self.torque.is_finite()
+    }
+
+    /// Takes the body out of the simulation, at rest at the given centre and attitude.
+    pub(crate) fn quarantine(&mut self, (centre, rotation): (Vector<N>, Rotation<N>)) {
+        self.quarantined = true;
+        self.centre = centre;
+        self.rotation = rotation;
+        self.force = Vector::ZERO;
+        self.torque = Bivector::ZERO;
+        self.velocity = Vector::ZERO;
+        self.angular_velocity = Bivector::ZERO;
+        self.angular_momentum = Bivector::ZERO;
     }
 }
 

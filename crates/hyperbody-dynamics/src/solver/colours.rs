@@ -54,7 +54,7 @@ impl Colours {
         self.order.extend(0..contacts.len() as u32);
         // Contacts with as many points stand together, so that few lanes idle; ties keep their order.
         let colour_of = &self.colour_of;
-        self.order.sort_by_key(|&c| (colour_of[c as usize], u8::MAX - contacts[c as usize].points, c));
+        self.order.sort_unstable_by_key(|&c| (colour_of[c as usize], u8::MAX - contacts[c as usize].points, c));
         self.pack();
     }
 

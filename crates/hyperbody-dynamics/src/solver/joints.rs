@@ -4,7 +4,7 @@
 //! follow the turning of their bodies within the step: anchors are turned along at every substep, because a pendulum's
 //! arm is long and its error would be seen.
 
-use hyperbody_math::{Bivector, Vector};
+use hyperbody_math::{Bivector, Rotation, Vector};
 
 use super::bodies::{MAX_PLANES, Sizes, SolverBody};
 use super::contacts::PassTimes;
@@ -163,9 +163,12 @@ impl<const N: usize> End<N> {
     }
 }
 
-/// A vector turned by the rotation vector `turned`, by the exponential series to third order: the remainder is
-/// θ⁴/24, 4e-6 at a tenth of a radian a step, and does not add up, since every step starts from the exact attitude.
+/// A vector turned by the rotation vector `turned`. Up to a tenth of a radian by the exponential series to third order:
+/// the remainder is θ⁴/24, 4e-6, and does not add up, since every step starts from the exact attitude.
 fn turn_along<const N: usize>(turned: &Bivector<N>, r: Vector<N>) -> Vector<N> {
+    if turned.norm_sq() > 0.01 {
+        return Rotation::exp(turned).rotate(r);
+    }
     let first = turned.act_on(r);
     let second = turned.act_on(first);
     let third = turned.act_on(second);

@@ -23,7 +23,6 @@ mod lanes;
 mod softness;
 
 use hyperbody_math::Vector;
-use rayon::prelude::*;
 
 use crate::BodyKind;
 use crate::body::Body;
@@ -33,9 +32,10 @@ use crate::pairs::Pairs;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
-use contacts::{ContactRows, Layout, PassTimes, Passes, Prepare};
+use contacts::{Block, ContactRows, Layout, PassTimes, Passes, Prepare};
 use gyro::Gyro;
 use joints::JointRows;
+use lanes::Lanes;
 pub(crate) use lanes::Real;
 use softness::Softness;
 
@@ -179,7 +179,7 @@ impl<const N: usize> Solver<N> {
             stiff: Softness::new(2.0 * tuning.contact_hz, tuning.contact_damping_ratio, h),
         };
         let (bodies, active, pairs) = (&self.bodies, &self.active, &*input.pairs);
-        let fill = |block: &contacts::Block, rows: &mut [lanes::Lanes]| {
+        let fill = |block: &Block, rows: &mut [Lanes]| {
             for (lane, &index) in block.contacts.iter().enumerate() {
                 if index == Group::EMPTY {
                     continue;
@@ -191,19 +191,10 @@ impl<const N: usize> Solver<N> {
                 prepare.fill(block, rows, lane, pair, &a, &b);
             }
         };
-        let mut rest = self.contacts.rows.as_mut_slice();
-        let mut jobs = Vec::with_capacity(if input.pool.is_some() { self.contacts.blocks.len() } else { 0 });
-        for block in &self.contacts.blocks {
-            let (rows, tail) = rest.split_at_mut(Layout::<N>::block_len(block));
-            rest = tail;
-            if input.pool.is_some() {
-                jobs.push((block, rows));
-            } else {
-                fill(block, rows);
-            }
-        }
-        if let Some(pool) = input.pool {
-            pool.install(|| jobs.into_par_iter().with_min_len(16).for_each(|(block, rows)| fill(block, rows)));
+        let (blocks, rows) = (self.contacts.blocks.as_slice(), self.contacts.rows.as_mut_slice());
+        match input.pool {
+            Some(pool) => pool.install(|| fill_blocks(blocks, rows, &fill)),
+            None => fill_in_turn(blocks, rows, &fill),
         }
     }
 
@@ -306,6 +297,28 @@ impl<const N: usize> Solver<N> {
                 stored.impulse = joint.impulse;
             }
         }
+    }
+}
+
+/// Blocks below which another thread is not worth its while.
+const FEW_BLOCKS: usize = 16;
+
+/// Fills the rows of consecutive blocks, halves of them side by side.
+fn fill_blocks(blocks: &[Block], rows: &mut [Lanes], fill: &(impl Fn(&Block, &mut [Lanes]) + Sync)) {
+    if blocks.len() <= FEW_BLOCKS {
+        fill_in_turn(blocks, rows, fill);
+        return;
+    }
+    let (first, second) = blocks.split_at(blocks.len() / 2);
+    let (rows_of_first, rows_of_second) = rows.split_at_mut(second[0].start - first[0].start);
+    rayon::join(|| fill_blocks(first, rows_of_first, fill), || fill_blocks(second, rows_of_second, fill));
+}
+
+fn fill_in_turn(blocks: &[Block], rows: &mut [Lanes], fill: &impl Fn(&Block, &mut [Lanes])) {
+    let start = blocks.first().map_or(0, |block| block.start);
+    for (index, block) in blocks.iter().enumerate() {
+        let end = blocks.get(index + 1).map_or(start + rows.len(), |next| next.start);
+        fill(block, &mut rows[block.start - start..end - start]);
     }
 }
 

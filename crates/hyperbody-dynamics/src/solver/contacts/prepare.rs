@@ -16,7 +16,8 @@ use crate::solver::softness::Softness;
 pub(crate) struct Prepare {
     /// Between two moving bodies.
     pub(crate) soft: Softness,
-    /// Against the immovable: twice as stiff, because there the other side won't give.
+    /// Against the immovable: stiffer, because there the other side won't give; twice the frequency where the substep
+    /// allows it, at 60 Hz and four substeps 60 in place of 45 Hz.
     pub(crate) stiff: Softness,
 }
 
@@ -246,6 +247,8 @@ pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, 
     for index in 0..pair.manifold.points().len() {
         let at = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_IMPULSE;
         pair.normal_impulses[index] = rows[at].0[lane];
+        let total = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_STEP_IMPULSE;
+        pair.step_impulses[index] = rows[total].0[lane];
     }
 }
 

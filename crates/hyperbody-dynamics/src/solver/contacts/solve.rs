@@ -90,6 +90,10 @@ impl<const N: usize> Passes<N> {
                 let displacement = Pairing::<N>::gather_displacement(block, head, state);
                 Self::press(head, points, &mut p, times, &displacement, problem);
                 Self::finish_press(block, head, points, response, &mut p, problem);
+                for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
+                    let impulse = row[Layout::<N>::POINT_IMPULSE];
+                    row[Layout::<N>::POINT_STEP_IMPULSE] += impulse;
+                }
                 Self::rub(block, head, points, &mut p, times);
             }
             p.scatter(block, state);
@@ -275,7 +279,6 @@ impl<const N: usize> Passes<N> {
         for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
             let impulse = problem.impulse[index];
             row[Layout::<N>::POINT_IMPULSE] = impulse;
-            row[Layout::<N>::POINT_MAX_IMPULSE] = row[Layout::<N>::POINT_MAX_IMPULSE].max(impulse);
             let change = impulse - problem.held[index];
             sum += change;
             p.apply_angular(&row[..2 * Self::K], change);
@@ -307,12 +310,15 @@ impl<const N: usize> Passes<N> {
                 problem.excess[index] = velocity + fast * approach;
                 problem.softness[index] = zero;
                 problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
-                problem.allowed[index] = row[Layout::<N>::POINT_MAX_IMPULSE].select_positive(one, zero);
+                problem.allowed[index] = row[Layout::<N>::POINT_STEP_IMPULSE].select_positive(one, zero);
             }
             problem.solve(response, block.points, head[Layout::<N>::STIFFENER]);
             // Lanes that don't bounce keep what they have.
             for index in 0..block.points {
                 problem.impulse[index] = restitution.select_positive(problem.impulse[index], problem.held[index]);
+            }
+            for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
+                row[Layout::<N>::POINT_STEP_IMPULSE] += problem.impulse[index] - problem.held[index];
             }
             Self::apply_solution(head, points, &mut p, problem);
             p.scatter(block, state);
@@ -361,7 +367,6 @@ impl<const N: usize> Pairing<N> {
     #[inline(always)]
     fn scatter(&self, block: &Block, state: &mut [Real]) {
         for lane in 0..WIDTH {
-            // Row 0 stands for all bodies that no impulse moves; its rows are zero, and so it stays zero.
             let a = block.bodies_a[lane] as usize * Sizes::<N>::STATE;
             let a = &mut state[a..a + Sizes::<N>::VELOCITY];
             for i in 0..N {
@@ -379,6 +384,8 @@ impl<const N: usize> Pairing<N> {
                 b[N + k] = self.angular_b[k].0[lane];
             }
         }
+        // Row 0 stands for all bodies that no impulse moves; infinite impulses must not make it anything but zero.
+        state[..Sizes::<N>::VELOCITY].fill(0.0);
     }
 
     /// Relative velocity of b against a along `direction`, linear part.
