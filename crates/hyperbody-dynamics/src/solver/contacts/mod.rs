@@ -1,8 +1,8 @@
 //! Contacts as constraint rows.
 //!
 //! A manifold has one row per point along the normal, which only pushes, and at the centre of its points N − 1 rows of
-//! sliding friction and (N−1)(N−2)/2 of twisting friction: sliding stays in the ball of radius μ·Σλ, twisting in that of
-//! μ·Σλρ with ρ the distance of a point from the centre. Both balls are balls in the tangent space, not boxes, so that
+//! sliding friction and (N−1)(N−2)/2 of twisting friction: sliding stays in the ball of radius μ·Σλ in the tangent space,
+//! twisting within what the points give against a twist in its direction. Neither depends on the choice of axes, so that
 //! a scene turned by any rotation moves turned. With friction once a manifold, a tesseract's facet on another costs
 //! 8 + 6 rows instead of 32.
 //!
