@@ -3,6 +3,7 @@
 use hyperbody_geometry::{Convex, Core};
 use hyperbody_math::{Pose, Vector};
 
+use crate::difference::inner_radius;
 use crate::faces::{Faces, NO_FACET};
 use crate::limits;
 use crate::manifold::{ContactPoint, Manifold, max_points};
@@ -29,31 +30,35 @@ pub(crate) fn collide<const N: usize>(
         return;
     }
     reducer.candidates.clear();
-    let mut gather = |point: Vector<N>, id: u32, class: Option<bool>| {
+    let mut gather = |point: Vector<N>, id: u32| {
         let separation = height - point.dot(toward_plane);
         if separation <= margin {
-            reducer.candidates.push(Candidate { position: point, separation, id, class });
+            reducer.candidates.push(Candidate { position: point, separation, id, class: None });
         }
     };
     match &shape.core {
-        Core::Point => gather(Vector::ZERO, 0, None),
+        Core::Point => gather(Vector::ZERO, 0),
         Core::Segment { half } => {
-            gather(*half, 0, None);
-            gather(-*half, 1, None);
+            gather(*half, 0);
+            gather(-*half, 1);
         }
         Core::Box { half_extents } => {
             for corner in 0..1_u32 << N {
                 let sign = |axis: usize| if corner >> axis & 1 == 0 { half_extents[axis] } else { -half_extents[axis] };
-                gather(Vector::from_fn(sign), corner, Some(corner.count_ones() % 2 == 1));
+                gather(Vector::from_fn(sign), corner);
             }
         }
         Core::Polytope(polytope) => {
             for (index, &vertex) in polytope.vertices().iter().enumerate() {
-                gather(vertex, index as u32, None);
+                gather(vertex, index as u32);
             }
         }
     }
-    keep_lowest(&Faces::of(&shape.core), toward_plane, extent, reducer);
+    let near = (NEARLY_LOWEST * extent).min(0.5 * inner_radius(&shape.core, Vector::ZERO).max(0.0));
+    keep_lowest(&Faces::of(&shape.core), toward_plane, extent, near, reducer);
+    if let (Core::Box { .. }, true) = (&shape.core, 1 << (N - 2) == max_points(N)) {
+        classify_corners(toward_plane.axis_of_max_abs(), toward_plane, reducer);
+    }
     reducer.reduce(max_points(N), memory.previous_ids(), extent);
     out.normal = normal;
     for candidate in &reducer.candidates {
@@ -64,17 +69,34 @@ pub(crate) fn collide<const N: usize>(
     }
 }
 
+/// Marks the even and odd corners of a box's facet along `axis` that looks in a direction.
+fn classify_corners<const N: usize>(axis: usize, direction: Vector<N>, reducer: &mut Reducer<N>) {
+    let negative = u32::from(direction[axis] < 0.0);
+    for candidate in &mut reducer.candidates {
+        if candidate.id >> axis & 1 == negative {
+            candidate.class = Some(candidate.id.count_ones() % 2 == 1);
+        }
+    }
+}
+
 /// Drops vertices that are within reach only because the shape has sunk deep: what is kept belongs to the lowest facet
-/// or is nearly as deep as the deepest. Without this, spread would be sought between the bottom and the top of a box.
-fn keep_lowest<const N: usize>(faces: &Faces<'_, N>, toward_plane: Vector<N>, extent: f64, reducer: &mut Reducer<N>) {
+/// or is as deep as the deepest to within `near`. Without this, spread would be sought between the bottom and the top of a box.
+fn keep_lowest<const N: usize>(
+    faces: &Faces<'_, N>,
+    toward_plane: Vector<N>,
+    extent: f64,
+    near: f64,
+    reducer: &mut Reducer<N>,
+) {
     let Some((facet, _)) = faces.facet_toward(toward_plane, NO_FACET) else { return };
     let (facet_normal, facet_offset) = faces.plane(facet);
     let least = reducer.candidates.iter().map(|candidate| candidate.separation).fold(f64::INFINITY, f64::min);
     reducer.candidates.retain(|candidate| {
         let on_facet = facet_offset - facet_normal.dot(candidate.position) <= limits::EQUAL_DEPTH * extent;
-        on_facet || candidate.separation <= least + NEARLY_LOWEST * extent
+        on_facet || candidate.separation <= least + near
     });
 }
 
-/// Height above the deepest vertex, in parts of the shape's size, up to which vertices off the lowest facet count.
+/// Height above the deepest vertex, in parts of the shape's size, up to which vertices off the lowest facet count; but no
+/// more than a quarter of a flat shape's thickness, whose top does not help to hold it.
 const NEARLY_LOWEST: f64 = 0.02;

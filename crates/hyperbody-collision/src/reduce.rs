@@ -1,9 +1,10 @@
 //! Choosing the few points of a patch that hold it.
 //!
-//! Of a patch like a cube with twice as many corners as may be chosen, every second. Of others first the deepest, then, one by one, the point farthest from the affine hull of those chosen (which gives a large
-//! simplex that spans the patch), then the point farthest from all chosen, each with the point opposite to it across the
-//! middle of the patch if there is one: a box then stands as deep on one side as on the other. Distances within a few percent of each
-//! other go to the point that was chosen in the previous step, then to the smaller id, so that the choice is stable.
+//! Of a patch like a cube with twice as many corners as may be chosen, every second. Of others first the deepest, then, one
+//! by one, the point farthest from the affine hull of those chosen (which gives a large simplex that spans the patch), then
+//! the point farthest from all chosen, each with the point opposite to it across the middle of the patch if there is one: a
+//! box then stands as deep on one side as on the other. Distances within a few percent of each other go to the point that
+//! was chosen in the previous step, then to the smaller id, so that the choice is stable; but the deepest comes first.
 
 use hyperbody_math::Vector;
 

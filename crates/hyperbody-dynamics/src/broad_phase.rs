@@ -125,10 +125,10 @@ impl<const N: usize> World<N> {
         })
     }
 
-    /// A sleeper that finds something static or kinematic beside it, put there since it fell asleep, wakes to feel it.
+    /// A sleeper that finds something at rest beside it, put there since it fell asleep, wakes to feel it.
     fn wake_beside_newcomer(&mut self, pair: &Pair<N>) {
         for (slot, other) in [(pair.body_a, pair.body_b), (pair.body_b, pair.body_a)] {
-            if self.bodies.at(other).is_some_and(|body| body.kind != BodyKind::Dynamic) {
+            if self.bodies.at(other).is_some_and(|body| body.kind != BodyKind::Dynamic && !body.drifts()) {
                 self.islands.wake_body(slot, &mut self.bodies);
             }
         }
@@ -144,6 +144,8 @@ impl<const N: usize> World<N> {
     /// Wakes the islands of the bodies that the user touched since the last step.
     pub(crate) fn serve_wake_requests(&mut self) {
         let mut requests = std::mem::take(&mut self.wake_requests);
+        requests.sort_unstable();
+        requests.dedup();
         for &slot in &requests {
             self.islands.wake_body(slot, &mut self.bodies);
             let Some(body) = self.bodies.at_mut(slot) else { continue };
@@ -172,6 +174,12 @@ impl<const N: usize> World<N> {
         for pair in self.pairs.iter().filter(|pair| pair.body_a == slot || pair.body_b == slot) {
             let other = if pair.body_a == slot { pair.body_b } else { pair.body_a };
             self.islands.wake_body(other, &mut self.bodies);
+        }
+        let Some(body) = self.bodies.at(slot) else { return };
+        let ties = body.joints.iter().filter_map(|&joint| self.joints.at(joint));
+        let ends: Vec<u32> = ties.flat_map(|joint| [joint.body_a, joint.body_b]).collect();
+        for end in ends {
+            self.islands.wake_body(end, &mut self.bodies);
         }
     }
 }

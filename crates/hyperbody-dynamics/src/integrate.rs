@@ -31,12 +31,10 @@ impl<const N: usize> World<N> {
                 }
                 None => span.turn(body, solved, &change[N..], &displacement[N..]),
             }
-            let accelerated = (solved.acceleration * self.dt).norm();
-            let change = (body.velocity - solved.velocity).norm();
-            let falls = accelerated > 0.0 && change > UNSUPPORTED * accelerated;
-            finish(body, &self.tuning, self.dt, falls);
+            finish(body, &self.tuning, self.dt);
             if !body.state_is_sound() {
                 body.quarantine(before);
+                self.wake_requests.push(solved.slot);
                 if let Some(handle) = self.bodies.handle_at(solved.slot) {
                     self.quarantined.push(handle);
                 }
@@ -92,12 +90,8 @@ impl Span {
     }
 }
 
-/// A body whose velocity changed by more than this share of what gravity and forces alone would make of it is held by
-/// nothing, however slow it still is.
-const UNSUPPORTED: f64 = 0.5;
-
 /// Derived quantities, limits, and how long the body has been slow.
-fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64, falls: bool) {
+fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
     body.force = Vector::ZERO;
     body.torque = Bivector::ZERO;
     body.refresh_angular_velocity();
@@ -111,5 +105,5 @@ fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64, falls: b
         body.angular_velocity *= tuning.max_spin / spin;
     }
     let fastest = speed + spin * body.radius;
-    body.slow_time = if fastest < tuning.sleep_speed && !falls { body.slow_time + dt } else { 0.0 };
+    body.slow_time = if fastest < tuning.sleep_speed { body.slow_time + dt } else { 0.0 };
 }

@@ -5,10 +5,13 @@
 //! anything awake touches one of it, or the user does, all of it wakes. So no body is left hanging on a sleeping
 //! neighbour that has gone.
 
+use hyperbody_math::Vector;
+
 use crate::body::Body;
 use crate::handle::Arena;
+use crate::narrow_phase::velocity_near;
 use crate::pairs::Pair;
-use crate::{BodyHandle, BodyKind, World};
+use crate::{BodyHandle, World};
 
 /// Sleeping islands, and the buffers of union–find.
 #[derive(Clone, Debug)]
@@ -21,6 +24,8 @@ pub(crate) struct Islands {
     least_slow_time: Vec<f64>,
     /// By root: the sleeping island that it became in this step.
     became: Vec<u32>,
+    /// By root: whether something immovable holds a body of the island.
+    held: Vec<bool>,
 }
 
 const NONE: u32 = u32::MAX;
@@ -33,6 +38,7 @@ impl Islands {
             parent: Vec::new(),
             least_slow_time: Vec::new(),
             became: Vec::new(),
+            held: Vec::new(),
         }
     }
 
@@ -114,9 +120,9 @@ impl<const N: usize> World<N> {
     /// Whether some point of a pair touches, or will before the step ends: the solver would press there.
     fn touches_within_step(&self, pair: &Pair<N>) -> bool {
         let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return false };
-        let velocity = |body: &Body<N>, place| body.velocity + body.angular_velocity.act_on(place - body.centre);
         pair.manifold.points().iter().any(|point| {
-            let closing = (velocity(a, point.position) - velocity(b, point.position)).dot(pair.manifold.normal);
+            let approach = velocity_near(a, point.position) - velocity_near(b, point.position);
+            let closing = approach.dot(pair.manifold.normal);
             point.separation <= self.tuning.slop + closing.max(0.0) * self.dt
         })
     }
@@ -183,7 +189,6 @@ impl<const N: usize> World<N> {
         }
         self.islands.least_slow_time.clear();
         self.islands.least_slow_time.resize(slot_count, f64::INFINITY);
-        self.keep_riders_awake();
         for slot in 0..slot_count {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             let slot = slot as u32;
@@ -192,23 +197,40 @@ impl<const N: usize> World<N> {
             let root = self.islands.find(slot) as usize;
             self.islands.least_slow_time[root] = self.islands.least_slow_time[root].min(slow_time);
         }
+        self.keep_moved_awake();
     }
 }
 
 impl<const N: usize> World<N> {
-    /// What touches a kinematic body in motion is carried along, however slowly, and may not fall asleep.
-    fn keep_riders_awake(&mut self) {
-        let rides = |body: &Body<N>| {
-            body.kind == BodyKind::Kinematic && (body.velocity.norm_sq() + body.angular_velocity.norm_sq() > 0.0)
-        };
-        for pair in self.pairs.iter().filter(|pair| !pair.manifold.points().is_empty()) {
-            for (rider, carrier) in [(pair.body_a, pair.body_b), (pair.body_b, pair.body_a)] {
-                if self.bodies.at(carrier).is_some_and(rides) {
-                    let root = self.islands.find(rider) as usize;
+    /// What touches a kinematic body in motion, or is tied to it, is carried along, however slowly, and may not fall asleep;
+    /// nor may what gravity pulls and nothing immovable holds, however slowly it still falls.
+    fn keep_moved_awake(&mut self) {
+        let mut held = std::mem::take(&mut self.islands.held);
+        held.clear();
+        held.resize(self.bodies.slot_count(), self.gravity == Vector::ZERO);
+        let touching = |pair: &Pair<N>| pair.step_impulses.iter().any(|&impulse| impulse > 0.0);
+        let contacts = self.pairs.iter().filter(|pair| touching(pair)).map(|pair| (pair.body_a, pair.body_b));
+        let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b));
+        for (a, b) in contacts.chain(joints) {
+            for (body, other) in [(a, b), (b, a)] {
+                let Some(other) = self.bodies.at(other).filter(|other| !other.is_moving()) else { continue };
+                let root = self.islands.find(body) as usize;
+                held[root] = true;
+                if other.drifts() {
                     self.islands.least_slow_time[root] = 0.0;
                 }
             }
         }
+        for slot in 0..self.bodies.slot_count() {
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+            let Some(body) = self.bodies.at(slot as u32).filter(|body| body.is_moving()) else { continue };
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+            let root = self.islands.find(slot as u32) as usize;
+            if !held[root] && body.gravity_scale != 0.0 {
+                self.islands.least_slow_time[root] = 0.0;
+            }
+        }
+        self.islands.held = held;
     }
 }
 

@@ -194,7 +194,7 @@ impl<const N: usize> Update<'_, N> {
             return;
         }
         let normal = manifold.normal;
-        let mut first = f64::INFINITY;
+        let (mut near, mut least) = (false, f64::INFINITY);
         let mut kept = Manifold::EMPTY;
         kept.normal = normal;
         for point in manifold.points() {
@@ -202,45 +202,58 @@ impl<const N: usize> Update<'_, N> {
             let on_a = velocity_near(a.1, point.position - half_gap);
             let on_b = velocity_near(b.1, point.position + half_gap);
             let closing = (on_a - on_b).dot(normal);
-            let near = point.separation <= self.margin;
-            if near || point.separation <= closing * self.dt {
+            near |= point.separation <= self.margin;
+            least = least.min(point.separation);
+            if point.separation <= self.margin || point.separation <= closing * self.dt {
                 kept.push(*point);
-                first = first.min(if near { 0.0 } else { point.separation / closing });
             }
         }
-        if first > 0.0 && first.is_finite() && !self.meet_after(first, a, b, scratch) {
+        if !near && !kept.points().is_empty() && !self.meet(least, a, b, scratch) {
             kept.clear();
         }
         *manifold = kept;
     }
 
-    /// Whether the colliders, moving on as they do, come near each other between the time `first` from now and the end
-    /// of the step; looked at a few times, since what is far apart sideways at one of them may meet at another.
-    fn meet_after(
+    /// Whether two colliders that are `distance` apart, moving on as they do, come within the margin of each other before
+    /// the step ends: by conservative advancement (B. Mirtich, 1996). True where that takes too many turns to tell.
+    fn meet(
         &self,
-        first: f64,
+        mut distance: f64,
         (a, body_a): (&Collider<N>, &Body<N>),
         (b, body_b): (&Collider<N>, &Body<N>),
         scratch: &mut Scratch<N>,
     ) -> bool {
+        let closing = self.closing_distance(body_a, body_b);
         let mut manifold = Manifold::default();
-        (0..FLYBY_LOOKS).any(|look| {
-            let share = f64::from(look) / f64::from(FLYBY_LOOKS - 1);
-            let time = first + (self.dt - first) * share;
-            let (world_from_a, world_from_b) = (pose_after(a, body_a, time), pose_after(b, body_b, time));
-            let mut cache = PairCache::default();
+        let mut share = 0.0;
+        for _ in 0..ADVANCES {
+            share += (distance - 0.5 * self.margin) / closing;
+            if share >= 1.0 {
+                return false;
+            }
+            let (world_from_a, world_from_b) =
+                (pose_after(a, body_a, share * self.dt), pose_after(b, body_b, share * self.dt));
+            let reach = self.margin + (1.0 - share) * closing;
             manifold.clear();
-            collide(&a.piece, &world_from_a, &b.piece, &world_from_b, self.margin, &mut cache, scratch, &mut manifold);
-            !manifold.points().is_empty()
-        })
+            let mut cache = PairCache::default();
+            collide(&a.piece, &world_from_a, &b.piece, &world_from_b, reach, &mut cache, scratch, &mut manifold);
+            distance = manifold.points().iter().map(|point| point.separation).fold(f64::INFINITY, f64::min);
+            if distance <= self.margin {
+                return true;
+            }
+            if manifold.points().is_empty() {
+                return false;
+            }
+        }
+        true
     }
 }
 
-/// Times in the rest of a step at which fast bodies are looked at for whether they meet or fly past each other.
-const FLYBY_LOOKS: u32 = 4;
+/// Turns of the advancement of fast bodies. Each covers at least half of the distance that is left at the fastest approach.
+const ADVANCES: u32 = 12;
 
 /// Velocity of the body's point nearest to a place: its own there, if the place lies within its reach.
-fn velocity_near<const N: usize>(body: &Body<N>, place: Vector<N>) -> Vector<N> {
+pub(crate) fn velocity_near<const N: usize>(body: &Body<N>, place: Vector<N>) -> Vector<N> {
     let offset = place - body.centre;
     let distance = offset.norm();
     let bounded = body.radius > 0.0 && distance > body.radius;

@@ -10,8 +10,8 @@ impl<const N: usize> World<N> {
         let mut watch = Stopwatch::start(self.clock);
         let mut timings = StageTimings::default();
 
-        self.vet_bodies();
         self.serve_wake_requests();
+        self.vet_bodies();
         self.update_broad_phase();
         timings.broad_phase = watch.lap();
 

@@ -13,18 +13,14 @@ use crate::{BodyKind, Tuning, World};
 pub const POSITION_LIMIT: f64 = 1e15;
 
 impl<const N: usize> World<N> {
-    /// Brings speeds and pushes within the limits, and quarantines bodies that are out of bounds.
+    /// Brings speeds and pushes within the limits, and quarantines bodies that are out of bounds. Sleepers have been
+    /// vetted before they fell asleep, and wake when they are pushed.
     pub(crate) fn vet_bodies(&mut self) {
         for slot in 0..self.bodies.slot_count() {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             let slot = slot as u32;
-            let Some(body) = self.bodies.at_mut(slot) else { continue };
-            // Pushes on a sleeper wait for the next stage, which wakes it.
-            if body.kind == BodyKind::Static || body.quarantined {
-                continue;
-            }
-            limit(body, &self.tuning, self.dt);
-            if body.state_is_sound() {
+            let Some(body) = self.bodies.at_mut(slot).filter(|body| body.is_awake()) else { continue };
+            if limit(body, &self.tuning, self.dt) && body.state_is_sound() {
                 continue;
             }
             let last = (if in_bounds(body.centre) { body.centre } else { Vector::ZERO }, body.rotation);
@@ -41,38 +37,53 @@ pub(crate) fn in_bounds<const N: usize>(position: Vector<N>) -> bool {
     position.max_abs() <= POSITION_LIMIT
 }
 
-/// Slows a body down to the limits. Finite accelerations are limited to what reaches the largest speed within the step.
-fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
-    let speed = length(body.velocity);
-    if speed > tuning.max_speed {
-        body.velocity *= tuning.max_speed / speed;
-    }
-    let spin = bivector_length(&body.angular_velocity);
-    if spin > tuning.max_spin {
-        let factor = tuning.max_spin / spin;
-        body.angular_velocity *= factor;
-        body.angular_momentum *= factor;
+/// Slows a body down to the limits, and its pushes to what reaches the largest speed within the step; `false` if a push
+/// is beyond all numbers.
+fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) -> bool {
+    body.velocity = shortened(body.velocity, tuning.max_speed);
+    let spin = shortened_bivector(&body.angular_velocity, tuning.max_spin);
+    if spin != body.angular_velocity {
+        body.angular_velocity = spin;
+        if body.kind == BodyKind::Dynamic {
+            body.angular_momentum = body.inertia.momentum(&body.rotation, &spin);
+        }
     }
     if body.kind != BodyKind::Dynamic {
-        return;
+        return true;
     }
-    let push = length(body.force) * body.inverse_mass * dt;
-    if push > tuning.max_speed && push.is_finite() {
-        body.force *= tuning.max_speed / push;
+    let acceleration = body.force * body.inverse_mass;
+    let shorter = shortened(acceleration, tuning.max_speed / dt);
+    if shorter != acceleration {
+        body.force = shorter * body.mass;
     }
-    let twist = bivector_length(&body.inertia.velocity(&body.rotation, &body.torque)) * dt;
-    if twist > tuning.max_spin && twist.is_finite() {
-        body.torque *= tuning.max_spin / twist;
+    if body.torque == Bivector::ZERO {
+        return acceleration.is_finite();
     }
+    let twist = body.inertia.velocity(&body.rotation, &body.torque);
+    let shorter = shortened_bivector(&twist, tuning.max_spin / dt);
+    if shorter != twist && twist.is_finite() {
+        body.torque = body.inertia.momentum(&body.rotation, &shorter);
+    }
+    acceleration.is_finite() && twist.is_finite()
 }
 
-/// Euclidean length that does not overflow on the way.
-fn length<const N: usize>(v: Vector<N>) -> f64 {
+/// A vector of at most the given length in the same direction. Does not overflow on the way.
+pub(crate) fn shortened<const N: usize>(v: Vector<N>, longest: f64) -> Vector<N> {
     let largest = v.max_abs();
-    if largest > 0.0 && largest.is_finite() { (v * (1.0 / largest)).norm() * largest } else { largest }
+    if !(largest > 0.0 && largest.is_finite()) {
+        return v;
+    }
+    let direction = v * (1.0 / largest);
+    let length = direction.norm();
+    if length * largest > longest { direction * (longest / length) } else { v }
 }
 
-fn bivector_length<const N: usize>(b: &Bivector<N>) -> f64 {
+fn shortened_bivector<const N: usize>(b: &Bivector<N>, longest: f64) -> Bivector<N> {
     let largest = b.planes().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    if largest > 0.0 && largest.is_finite() { (*b * (1.0 / largest)).norm() * largest } else { largest }
+    if !(largest > 0.0 && largest.is_finite()) {
+        return *b;
+    }
+    let direction = *b * (1.0 / largest);
+    let length = direction.norm();
+    if length * largest > longest { direction * (longest / length) } else { *b }
 }

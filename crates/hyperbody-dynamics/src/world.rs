@@ -235,11 +235,10 @@ impl<const N: usize> World<N> {
         for joint in joints {
             self.remove_joint(joint)?;
         }
-        for pair in self.pairs.iter() {
-            if pair.body_a == handle.index {
-                self.wake_requests.push(pair.body_b);
-            } else if pair.body_b == handle.index {
-                self.wake_requests.push(pair.body_a);
+        for pair in self.pairs.iter().filter(|pair| pair.body_a == handle.index || pair.body_b == handle.index) {
+            let partner = if pair.body_a == handle.index { pair.body_b } else { pair.body_a };
+            if self.bodies.at(partner).is_some_and(|body| body.kind == BodyKind::Dynamic) {
+                self.wake_requests.push(partner);
             }
         }
         self.pairs.retain(|pair| pair.body_a != handle.index && pair.body_b != handle.index);
@@ -289,8 +288,10 @@ impl<const N: usize> World<N> {
             if let Some(body) = self.bodies.at_mut(slot) {
                 let position = body.joints.partition_point(|&other| other < handle.index);
                 body.joints.insert(position, handle.index);
+                if body.kind == BodyKind::Dynamic {
+                    self.wake_requests.push(slot);
+                }
             }
-            self.wake_requests.push(slot);
         }
         self.pairs.retain(|pair| !is_pair_of(pair.body_a, pair.body_b, a.index, b.index));
         Ok(handle)
@@ -310,7 +311,9 @@ impl<const N: usize> World<N> {
                     collider.moved = true;
                 }
             }
-            self.wake_requests.push(slot);
+            if body.kind == BodyKind::Dynamic {
+                self.wake_requests.push(slot);
+            }
         }
         Ok(())
     }

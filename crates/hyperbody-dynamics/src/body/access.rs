@@ -131,6 +131,12 @@ impl<const N: usize> BodyMut<'_, N> {
 
     /// Wakes the body and all that rests with it, at the start of the next step.
     pub fn wake(&mut self) {
+        if self.body.kind == BodyKind::Dynamic {
+            self.request();
+        }
+    }
+
+    fn request(&mut self) {
         if self.wake.last() != Some(&self.slot) {
             self.wake.push(self.slot);
         }
@@ -159,7 +165,8 @@ impl<const N: usize> BodyMut<'_, N> {
         self.body.rotation = world_from_body.rotation;
         self.body.centre = centre;
         self.store_angular_velocity(angular_velocity);
-        self.wake();
+        // What it supported or is put beside has to look again, also where it is static.
+        self.request();
         Ok(())
     }
 

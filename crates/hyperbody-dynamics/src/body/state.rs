@@ -199,6 +199,12 @@ impl<const N: usize> Body<N> {
         self.kind != BodyKind::Static && self.asleep_in.is_none() && !self.quarantined
     }
 
+    /// A kinematic body in motion.
+    pub(crate) fn drifts(&self) -> bool {
+        let still = self.velocity == Vector::ZERO && self.angular_velocity == Bivector::ZERO;
+        self.kind == BodyKind::Kinematic && !self.quarantined && !still
+    }
+
     /// Comes to a full stop and rests until its island wakes.
     pub(crate) fn fall_asleep_in(&mut self, island: u32) {
         self.asleep_in = Some(island);

@@ -29,6 +29,7 @@ use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::Joint;
 use crate::pairs::Pairs;
+use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
@@ -122,6 +123,8 @@ impl<const N: usize> Solver<N> {
             }
             self.push_body(body, |body| SolverBody::dynamic(slot, body, input.gravity));
             let row = self.bodies.len() - 1;
+            let steepest = input.tuning.max_speed / input.dt;
+            self.bodies[row].acceleration = shortened(self.bodies[row].acceleration, steepest);
             if let Some(frame) = self.bodies[row].frame {
                 let inertia = &body.inertia;
                 self.gyros.push(Gyro::new(row, frame, inertia.moments, body.angular_momentum, body.torque));

@@ -23,7 +23,7 @@ pub(crate) struct Prepare {
 
 /// What rigid rows have in place of softness, in parts of the inverse mass that a point carries: large against rounding in
 /// single precision, small against the response.
-const RIGID_SHARE: f64 = 1e-3;
+const RIGID_SHARE: f64 = 1e-4;
 
 /// One contact while its lane is filled.
 struct Lane<'a, const N: usize> {
@@ -104,7 +104,8 @@ impl<const N: usize> Lane<'_, N> {
         self.set(Layout::<N>::BIAS_RATE, softness.bias_rate);
         // The spring is the manifold's, shared evenly by its points: a patch is as stiff with sixteen corners as with one.
         let share = self.inverse_mass_sum() * pair.manifold.points().len() as f64;
-        self.set(Layout::<N>::SOFTNESS, share * softness.impulse_scale / softness.mass_scale);
+        let softness_share = (softness.impulse_scale / softness.mass_scale).max(RIGID_SHARE);
+        self.set(Layout::<N>::SOFTNESS, share * softness_share);
         self.set(Layout::<N>::STIFFENER, share * RIGID_SHARE);
         for i in 0..N {
             self.set(Layout::<N>::NORMAL + i, pair.manifold.normal[i]);

@@ -310,7 +310,10 @@ impl<const N: usize> Passes<N> {
                 problem.excess[index] = velocity + fast * approach;
                 problem.softness[index] = zero;
                 problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
-                problem.allowed[index] = row[Layout::<N>::POINT_STEP_IMPULSE].select_positive(one, zero);
+                // What was met in this step bounces; what presses and is slow must go on pressing.
+                let met = row[Layout::<N>::POINT_STEP_IMPULSE].select_positive(one, zero);
+                let presses = row[Layout::<N>::POINT_IMPULSE].select_positive(one, zero);
+                problem.allowed[index] = fast.select_positive(met, presses);
             }
             problem.solve(response, block.points, head[Layout::<N>::STIFFENER]);
             // Lanes that don't bounce keep what they have.
