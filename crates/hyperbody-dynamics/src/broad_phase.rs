@@ -113,6 +113,7 @@ impl<const N: usize> World<N> {
             collider_b,
             body_a: a.body,
             body_b: b.body,
+            radii: (rounding(a), rounding(b)),
             friction: body_a.material.combined_friction(&body_b.material),
             restitution: body_a.material.combined_restitution(&body_b.material),
             manifold: Manifold::default(),
@@ -181,6 +182,14 @@ impl<const N: usize> World<N> {
         for end in ends {
             self.islands.wake_body(end, &mut self.bodies);
         }
+    }
+}
+
+/// Radius by which a collider's core is rounded, m.
+fn rounding<const N: usize>(collider: &Collider<N>) -> f64 {
+    match &collider.piece {
+        Piece::Convex(convex) => convex.radius,
+        Piece::HalfSpace { .. } => 0.0,
     }
 }
 

@@ -17,6 +17,8 @@ pub(crate) struct Pair<const N: usize> {
     /// Slots of their bodies.
     pub(crate) body_a: u32,
     pub(crate) body_b: u32,
+    /// Radii by which the colliders' cores are rounded, m.
+    pub(crate) radii: (f64, f64),
     /// √(μ_a μ_b).
     pub(crate) friction: f64,
     /// max(e_a, e_b).

@@ -5,7 +5,7 @@ mod common;
 
 use common::*;
 use hyperbody_dynamics::{BodyDef, BodyHandle, BodyKind, JointDef, POSITION_LIMIT, Tuning, World, WorldDef};
-use hyperbody_geometry::Shape;
+use hyperbody_geometry::{Shape, regular};
 use hyperbody_math::{Bivector, Pose, Vector};
 
 fn height<const N: usize>(world: &World<N>, body: BodyHandle) -> f64 {
@@ -159,6 +159,34 @@ fn oblique_shots_do_not_pass_thin_walls() {
         oblique_shot::<4>(speed, start);
         oblique_shot::<6>(speed, start);
     }
+}
+
+/// A simplex that lands on a corner at ten metres a second slams its others down: none goes deep into the floor.
+fn slam<const N: usize>() {
+    let mut random = Random(12);
+    let mut deepest: f64 = 0.0;
+    for _ in 0..20 {
+        let mut world = world(down::<N>());
+        add_floor(&mut world, material(0.5, 0.0));
+        let simplex = regular::polytope::<N>("simplex", regular::Size::Circumradius(0.7)).unwrap();
+        let simplex = Shape::polytope(std::sync::Arc::new(simplex)).unwrap();
+        let def = BodyDef::new(simplex).position(Vector::unit(1) * 1.0).rotation(random.rotation(2.0));
+        world.add_body(def.velocity(Vector::unit(1) * -10.0)).unwrap();
+        for _ in 0..60 {
+            world.step();
+            deepest = deepest.max(world.max_penetration());
+        }
+    }
+    println!("{N}D: {deepest} m");
+    assert!(deepest < 0.01, "a corner goes {deepest} m into the floor in {N}D");
+}
+
+#[test]
+fn corners_that_slam_down_do_not_go_deep() {
+    slam::<2>();
+    slam::<3>();
+    slam::<4>();
+    slam::<5>();
 }
 
 /// A plate, thin against the margin of contacts, and a pillar as slender as a pencil, stay as they were put.

@@ -11,6 +11,7 @@
 //! | `colours` | which contacts are solved side by side |
 //! | `contacts` | contact rows and the passes over them |
 //! | `joints` | joint rows |
+//! | `turning` | gaps of bodies that turn far within the step |
 //! | `gyro` | free rotation of anisotropic bodies within the step |
 //! | `softness`, `lanes` | soft coefficients; vectors of contacts |
 
@@ -21,6 +22,7 @@ mod gyro;
 mod joints;
 mod lanes;
 mod softness;
+mod turning;
 
 use hyperbody_math::Vector;
 
@@ -39,6 +41,7 @@ use joints::JointRows;
 use lanes::Lanes;
 pub(crate) use lanes::Real;
 use softness::Softness;
+use turning::Turning;
 
 /// Buffers of the solver, kept from step to step so that a settled step allocates nothing.
 pub(crate) struct Solver<const N: usize> {
@@ -52,6 +55,7 @@ pub(crate) struct Solver<const N: usize> {
     colours: Colours,
     contacts: ContactRows,
     joints: Vec<JointRows<N>>,
+    turning: Turning<N>,
     arch: pulp::Arch,
 }
 
@@ -87,6 +91,7 @@ impl<const N: usize> Solver<N> {
             colours: Colours::default(),
             contacts: ContactRows::default(),
             joints: Vec::new(),
+            turning: Turning::default(),
             arch: pulp::Arch::new(),
         }
     }
@@ -227,6 +232,7 @@ impl<const N: usize> Solver<N> {
         let tuning = input.tuning;
         let joint_soft = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
         let arch = self.arch;
+        self.turning.clear(self.bodies.len());
         for substep in 0..input.substeps {
             let mut times = pass_times(substep, h, tuning);
             self.damp(h * f64::from(substep + 1));
@@ -241,6 +247,8 @@ impl<const N: usize> Solver<N> {
             arch.dispatch(|| Passes::<N>::solve(&mut self.contacts, &mut self.state, &times));
             self.move_bodies(h, h * f64::from(substep + 1));
             times = PassTimes { push: false, ..after_move(times, substep, h) };
+            let rows = (&mut self.contacts, self.active.as_slice());
+            self.turning.refresh(&self.bodies, &self.state, &times, rows, input.pairs);
             for joint in &mut self.joints {
                 joint.solve(&self.bodies, &mut self.state, None);
             }

@@ -47,15 +47,16 @@ impl<const N: usize> Layout<N> {
     pub(crate) const TWIST_ROW: usize = 2 * Self::K + 3;
 
     // A normal row: arms, gap at the start of the step, base velocity and acceleration along the normal, impulse,
-    // sum of the impulses of the step's substeps, place in the tangent space from the centre of friction.
+    // sum of the impulses of the step's substeps, what turning adds to the gap, place in the tangent space from the centre of friction.
     pub(crate) const POINT_ARM_A: usize = 0;
     pub(crate) const POINT_GAP: usize = 2 * Self::K;
     pub(crate) const POINT_VELOCITY: usize = 2 * Self::K + 1;
     pub(crate) const POINT_ACCELERATION: usize = 2 * Self::K + 2;
     pub(crate) const POINT_IMPULSE: usize = 2 * Self::K + 3;
     pub(crate) const POINT_STEP_IMPULSE: usize = 2 * Self::K + 4;
-    pub(crate) const POINT_LEVER: usize = 2 * Self::K + 5;
-    pub(crate) const POINT_ROW: usize = 2 * Self::K + 5 + Self::SLIDES;
+    pub(crate) const POINT_ARC: usize = 2 * Self::K + 5;
+    pub(crate) const POINT_LEVER: usize = 2 * Self::K + 6;
+    pub(crate) const POINT_ROW: usize = 2 * Self::K + 6 + Self::SLIDES;
 
     /// First normal row.
     #[inline(always)]

@@ -237,6 +237,7 @@ impl<const N: usize> Passes<N> {
         let linear_velocity = p.measure_linear(normal);
         for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             let gap = row[Layout::<N>::POINT_GAP]
+                + row[Layout::<N>::POINT_ARC]
                 + moved * row[Layout::<N>::POINT_VELOCITY]
                 + moved_sq * row[Layout::<N>::POINT_ACCELERATION]
                 + linear_gap
