@@ -92,18 +92,17 @@ impl NormalProblem {
     fn set_up(&mut self, k: &[Lanes], count: usize) -> Lanes {
         let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
         let mut largest = zero;
+        let mut unheld = [zero; MAX];
+        for (negative, held) in unheld[..count].iter_mut().zip(&self.held) {
+            *negative = -*held;
+        }
         self.free[..count].copy_from_slice(&self.excess[..count]);
+        add_product(k, &unheld[..count], &mut self.free[..count]);
         for i in 0..count {
-            let held = self.held[i];
-            self.free[i] -= k[upper(count, i, i)] * held;
-            for j in i + 1..count {
-                let response = k[upper(count, i, j)];
-                self.free[i] -= response * self.held[j];
-                self.free[j] -= response * held;
-            }
-            let load = (k[upper(count, i, i)] * held).max(-self.excess[i]);
+            let (held, excess) = (self.held[i], self.excess[i]);
+            let load = (k[upper(count, i, i)] * held).max(-excess);
             largest = largest.max(self.allowed[i] * load);
-            let presses = held.select_positive(one, (-self.excess[i]).select_positive(one, zero));
+            let presses = held.select_positive(one, (-excess).select_positive(one, zero));
             self.active[i] = presses * self.allowed[i];
         }
         largest * Lanes::splat(SLACK)
@@ -113,27 +112,36 @@ impl NormalProblem {
     #[inline(always)]
     fn factorize(&mut self, k: &[Lanes], count: usize, stiffener: Lanes) {
         let one = Lanes::splat(1.0);
+        let (mut rest, mut responses) = (&mut self.factor[..count * (count + 1) / 2], k);
         for i in 0..count {
+            let (row, below) = rest.split_at_mut(count - i);
+            let (response, others) = responses.split_at(count - i);
+            (rest, responses) = (below, others);
             let active = self.active[i];
-            let diagonal = k[upper(count, i, i)] + self.softness[i].select_positive(self.softness[i], stiffener);
-            self.factor[upper(count, i, i)] = active.select_positive(diagonal, one);
-            for j in i + 1..count {
-                self.factor[upper(count, i, j)] = active * self.active[j] * k[upper(count, i, j)];
+            let diagonal = response[0] + self.softness[i].select_positive(self.softness[i], stiffener);
+            row[0] = active.select_positive(diagonal, one);
+            for ((entry, response), other) in row.iter_mut().zip(response).zip(&self.active[i..]).skip(1) {
+                *entry = active * *other * *response;
             }
         }
+        let mut rest = &mut self.factor[..count * (count + 1) / 2];
         for p in 0..count {
-            let inverse = one.div(self.factor[upper(count, p, p)]);
-            self.factor[upper(count, p, p)] = inverse;
-            for i in p + 1..count {
-                let scaled = self.factor[upper(count, p, i)] * inverse;
-                for j in i..count {
-                    let product = scaled * self.factor[upper(count, p, j)];
-                    self.factor[upper(count, i, j)] -= product;
+            let (row, below) = rest.split_at_mut(count - p);
+            let inverse = one.div(row[0]);
+            row[0] = inverse;
+            let mut targets = &mut *below;
+            for i in 1..row.len() {
+                let (target, next) = targets.split_at_mut(row.len() - i);
+                targets = next;
+                let scaled = row[i] * inverse;
+                for (entry, pivot) in target.iter_mut().zip(&row[i..]) {
+                    *entry -= scaled * *pivot;
                 }
             }
-            for i in p + 1..count {
-                self.factor[upper(count, p, i)] = self.factor[upper(count, p, i)] * inverse;
+            for entry in &mut row[1..] {
+                *entry = *entry * inverse;
             }
+            rest = below;
         }
     }
 
@@ -144,16 +152,21 @@ impl NormalProblem {
             let rigid = self.softness[i].select_positive(Lanes::ZERO, stiffener * self.held[i]);
             self.impulse[i] = self.active[i] * (rigid - self.free[i]);
         }
+        let mut rest = &self.factor[..count * (count + 1) / 2];
         for p in 0..count {
+            let (row, below) = rest.split_at(count - p);
+            rest = below;
             let known = self.impulse[p];
-            for i in p + 1..count {
-                self.impulse[i] -= self.factor[upper(count, p, i)] * known;
+            for (value, entry) in self.impulse[p + 1..count].iter_mut().zip(&row[1..]) {
+                *value -= *entry * known;
             }
         }
         for p in (0..count).rev() {
-            let mut value = self.impulse[p] * self.factor[upper(count, p, p)];
-            for i in p + 1..count {
-                value -= self.factor[upper(count, p, i)] * self.impulse[i];
+            let start = upper(count, p, p);
+            let row = &self.factor[start..start + count - p];
+            let mut value = self.impulse[p] * row[0];
+            for (entry, later) in row[1..].iter().zip(&self.impulse[p + 1..count]) {
+                value -= *entry * *later;
             }
             self.impulse[p] = value;
         }
@@ -163,17 +176,17 @@ impl NormalProblem {
     #[inline(always)]
     fn pivot(&mut self, k: &[Lanes], count: usize, stiffener: Lanes, slack: Lanes, all: bool) -> Lanes {
         let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
-        let mut settled = one;
+        let mut velocity = [zero; MAX];
         for i in 0..count {
             // The same proximal term as in the active rows, so that one problem is solved.
             let proximal = self.softness[i].select_positive(zero, stiffener * self.held[i]);
-            let mut velocity = self.free[i] - proximal + slack;
-            for j in 0..count {
-                let at = if i <= j { upper(count, i, j) } else { upper(count, j, i) };
-                velocity += k[at] * self.impulse[j];
-            }
+            velocity[i] = self.free[i] - proximal + slack;
+        }
+        add_product(k, &self.impulse[..count], &mut velocity[..count]);
+        let mut settled = one;
+        for i in 0..count {
             let pulls = (-self.impulse[i]).select_positive(one, zero);
-            let approaches = (-velocity).select_positive(self.allowed[i], zero);
+            let approaches = (-velocity[i]).select_positive(self.allowed[i], zero);
             let wrong = self.active[i].select_positive(pulls, approaches);
             let moves = if all { wrong } else { wrong * settled };
             self.active[i] = moves.select_positive(one - self.active[i], self.active[i]);
@@ -203,6 +216,24 @@ impl NormalProblem {
         for i in 0..count {
             self.impulse[i] = settled.select_positive(solved[i], self.impulse[i]);
         }
+    }
+}
+
+/// Adds K x to `sum`; K symmetric, upper triangle by rows.
+#[inline(always)]
+fn add_product(k: &[Lanes], x: &[Lanes], sum: &mut [Lanes]) {
+    let count = x.len();
+    let mut rest = k;
+    for i in 0..count {
+        let (row, below) = rest.split_at(count - i);
+        rest = below;
+        let own = x[i];
+        let mut total = row[0] * own;
+        for ((entry, other), out) in row[1..].iter().zip(&x[i + 1..]).zip(&mut sum[i + 1..count]) {
+            total += *entry * *other;
+            *out += *entry * own;
+        }
+        sum[i] += total;
     }
 }
 

@@ -2,8 +2,6 @@
 
 use hyperbody_math::{Bivector, Vector};
 
-use hyperbody_collision::MAX_POINTS;
-
 use super::normal::upper;
 use super::{Block, Layout};
 use crate::pairs::Pair;
@@ -78,6 +76,15 @@ impl<const N: usize> Lane<'_, N> {
             self.set(position + k, a[k]);
             self.set(position + Sizes::<N>::K + k, b[k]);
         }
+    }
+
+    /// Response of one row to another through the rotation of both bodies; their arms stand at the given positions.
+    fn response_of_arms(&self, row: usize, other: usize) -> f64 {
+        let mut response = 0.0;
+        for k in 0..2 * Sizes::<N>::K {
+            response += f64::from(self.rows[row + k].0[self.lane]) * f64::from(self.rows[other + k].0[self.lane]);
+        }
+        response
     }
 
     fn offsets(&self, point: Vector<N>) -> Offsets<N> {
@@ -161,14 +168,13 @@ impl<const N: usize> Lane<'_, N> {
     fn twisting(&mut self, pair: &Pair<N>, tangents: &[Vector<N>; N]) {
         let spin = self.b.angular_velocity - self.a.angular_velocity;
         let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
-        let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); MAX_PLANES];
         let mut row = 0;
         for s in 0..Layout::<N>::SLIDES {
             for t in s + 1..Layout::<N>::SLIDES {
                 let at = Layout::<N>::TWIST_ROWS + row * Layout::<N>::TWIST_ROW;
                 let plane = Bivector::wedge(tangents[s], tangents[t]);
-                arms[row] = (self.a.arm(tangents[s], tangents[t]), self.b.arm(tangents[s], tangents[t]));
-                self.set_arms(at + Layout::<N>::TWIST_ARM_A, &arms[row].0, &arms[row].1);
+                let arms = (self.a.arm(tangents[s], tangents[t]), self.b.arm(tangents[s], tangents[t]));
+                self.set_arms(at + Layout::<N>::TWIST_ARM_A, &arms.0, &arms.1);
                 self.set(at + Layout::<N>::TWIST_VELOCITY, spin.dot(&plane));
                 self.set(at + Layout::<N>::TWIST_ACCELERATION, spin_up.dot(&plane));
                 self.set(at + Layout::<N>::TWIST_IMPULSE, pair.twist_impulse.dot(&plane));
@@ -178,10 +184,8 @@ impl<const N: usize> Lane<'_, N> {
         let (mut trace, mut trace_of_square) = (0.0, 0.0);
         for s in 0..row {
             for t in 0..row {
-                let mut response: f64 = 0.0;
-                for plane in 0..Sizes::<N>::K {
-                    response += arms[s].0[plane] * arms[t].0[plane] + arms[s].1[plane] * arms[t].1[plane];
-                }
+                let row = |index: usize| Layout::<N>::TWIST_ROWS + index * Layout::<N>::TWIST_ROW;
+                let response = self.response_of_arms(row(s), row(t));
                 trace += if s == t { response } else { 0.0 };
                 trace_of_square += response * response;
             }
@@ -196,13 +200,12 @@ impl<const N: usize> Lane<'_, N> {
     fn points(&mut self, pair: &Pair<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
         let normal = pair.manifold.normal;
         let points = pair.manifold.points();
-        let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); MAX_POINTS];
         for (index, point) in points.iter().enumerate() {
             let at = Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW;
             let r = self.offsets(point.position);
             let (velocity, acceleration) = self.base_motion(r);
-            arms[index] = (self.a.arm(r.a, normal), self.b.arm(r.b, normal));
-            self.set_arms(at + Layout::<N>::POINT_ARM_A, &arms[index].0, &arms[index].1);
+            let (arm_a, arm_b) = (self.a.arm(r.a, normal), self.b.arm(r.b, normal));
+            self.set_arms(at + Layout::<N>::POINT_ARM_A, &arm_a, &arm_b);
             self.set(at + Layout::<N>::POINT_GAP, point.separation);
             self.set(at + Layout::<N>::POINT_VELOCITY, velocity.dot(normal));
             self.set(at + Layout::<N>::POINT_ACCELERATION, acceleration.dot(normal));
@@ -212,12 +215,10 @@ impl<const N: usize> Lane<'_, N> {
             }
         }
         let start = Layout::<N>::response_start(block);
+        let row = |index: usize| Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW;
         for i in 0..points.len() {
             for j in i..points.len() {
-                let mut response = self.inverse_mass_sum();
-                for k in 0..Sizes::<N>::K {
-                    response += arms[i].0[k] * arms[j].0[k] + arms[i].1[k] * arms[j].1[k];
-                }
+                let response = self.inverse_mass_sum() + self.response_of_arms(row(i), row(j));
                 self.set(start + upper(block.points, i, j), response);
             }
         }
