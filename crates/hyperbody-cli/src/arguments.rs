@@ -123,6 +123,9 @@ pub(crate) struct ScenesArguments {
     /// Write every built-in scene as a file into this folder, which is made if it is not there
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
+    /// Overwrite files that are there already and have been changed
+    #[arg(long, requires = "write")]
+    pub(crate) force: bool,
     /// Print one JSON object and nothing else
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,13 +1,14 @@
 //! `hyperbody scenes`: what there is to see.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hyperbody_scene::{BUILT_IN, Scene};
 use serde::Serialize;
 
 use crate::arguments::ScenesArguments;
 use crate::failure::Failure;
+use crate::files::Target;
 use crate::output::{print, print_json, table};
 
 #[derive(Serialize)]
@@ -28,6 +29,9 @@ struct Entry {
 
 pub(crate) fn scenes(arguments: &ScenesArguments) -> Result<(), Failure> {
     let mut report = Report { scenes: Vec::with_capacity(BUILT_IN.len()) };
+    if let Some(folder) = &arguments.write {
+        prepare(folder, arguments.force)?;
+    }
     for built_in in &BUILT_IN {
         let scene = built_in.scene();
         let file = arguments.write.as_deref().map(|folder| write(&scene, folder)).transpose()?;
@@ -61,10 +65,30 @@ fn width() -> u16 {
     std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok()).unwrap_or(120).clamp(60, 200)
 }
 
+/// Makes the folder, and sees to it before anything is written that no file which someone changed would be lost.
+fn prepare(folder: &Path, force: bool) -> Result<(), Failure> {
+    let refuse = |path: &Path, what: &str| Err(Failure::Input(format!("--write: {}: {what}", path.display())));
+    if folder.exists() && !folder.is_dir() {
+        return refuse(folder, "is a file; name a folder");
+    }
+    if let Err(error) = fs::create_dir_all(folder) {
+        return refuse(folder, &format!("cannot be made: {error}"));
+    }
+    for scene in BUILT_IN.iter().map(|built_in| built_in.scene()) {
+        let path = path_of(&scene, folder);
+        if !force && path.exists() && fs::read(&path).is_ok_and(|old| old != scene.to_json().as_bytes()) {
+            return refuse(&path, "is there already and differs; name another folder, or add --force to overwrite it");
+        }
+    }
+    Ok(())
+}
+
+fn path_of(scene: &Scene, folder: &Path) -> PathBuf {
+    folder.join(format!("{}.json", scene.name))
+}
+
 fn write(scene: &Scene, folder: &Path) -> Result<String, Failure> {
-    let path = folder.join(format!("{}.json", scene.name));
-    fs::create_dir_all(folder)
-        .and_then(|()| fs::write(&path, scene.to_json()))
-        .map_err(|error| Failure::Work(format!("{}: cannot be written: {error}", path.display())))?;
+    let path = path_of(scene, folder);
+    Target::new("--write", &path, &["json"])?.write(scene.to_json().as_bytes())?;
     Ok(path.display().to_string())
 }

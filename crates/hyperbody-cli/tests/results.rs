@@ -49,7 +49,7 @@ fn seconds_and_steps_say_the_same() {
 #[test]
 fn a_written_scene_runs_to_the_same_bits() {
     let folder = format!("{}/written", env!("CARGO_TARGET_TMPDIR"));
-    let listed = json_of(&["scenes", "--write", &folder, "--json"]);
+    let listed = json_of(&["scenes", "--write", &folder, "--force", "--json"]);
     let scenes = listed["scenes"].as_array().expect("a list");
     assert!(scenes.len() >= 14);
     for scene in scenes {
@@ -58,6 +58,23 @@ fn a_written_scene_runs_to_the_same_bits() {
         let hash = |scene: &str| json_of(&["run", scene, "--steps", "5", "--json"])["hash"].clone();
         assert_eq!(hash(path), hash(name), "{name} from its file");
     }
+}
+
+/// Written scenes are there to be changed: writing them again must not lose the changes.
+#[test]
+fn a_changed_scene_is_not_overwritten_unasked() {
+    let folder = format!("{}/changed", env!("CARGO_TARGET_TMPDIR"));
+    let write = |more: &[&str]| hyperbody(&[&["scenes", "--write", &folder], more].concat());
+    assert!(write(&["--force"]).status.success());
+    assert!(write(&[]).status.success(), "what has not been changed may be written again");
+    let path = format!("{folder}/stack4d.json");
+    std::fs::write(&path, "{}").expect("the file can be written");
+    let refused = write(&[]);
+    assert_eq!(refused.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(message.contains("stack4d.json") && message.contains("--force"), "{message}");
+    assert_eq!(std::fs::read_to_string(&path).expect("still there"), "{}");
+    assert!(write(&["--force"]).status.success());
 }
 
 #[test]

@@ -424,6 +424,29 @@ fn a_flat_landing_gives_no_spin() {
     flat_landing::<6>();
 }
 
+/// A ball that gives back all of its speed keeps nearly all of its energy, bounce after bounce.
+fn lossless_bounces<const N: usize>() {
+    let mut world = world(down::<N>());
+    add_floor(&mut world, material(0.0, 1.0));
+    let def = BodyDef::new(ball(0.5)).position(Vector::unit(1) * 3.0).material(material(0.0, 1.0));
+    world.add_body(def).unwrap();
+    let start = world.energy().total();
+    run(&mut world, 20.0);
+    let ground = world.bodies().nth(1).unwrap().1.mass() * GRAVITY * 0.5;
+    let kept = (world.energy().total() - ground) / (start - ground);
+    println!("{N}D keeps {kept} of the energy through fourteen bounces");
+    // Touches fall between steps, which costs a percent or two a bounce at 60 Hz.
+    assert!((0.8..=1.02).contains(&kept), "{kept} of the energy is left after 20 s in {N}D");
+}
+
+#[test]
+fn a_ball_of_restitution_one_keeps_bouncing() {
+    lossless_bounces::<2>();
+    lossless_bounces::<3>();
+    lossless_bounces::<4>();
+    lossless_bounces::<6>();
+}
+
 #[test]
 fn shapes_may_be_static_half_spaces_only() {
     let half_space = Shape::<3>::half_space(Vector::unit(1), 0.0).unwrap();

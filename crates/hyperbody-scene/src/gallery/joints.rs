@@ -52,7 +52,7 @@ pub(super) fn pendulum_4d() -> Scene {
     let mut scene = scene(
         4,
         "A double pendulum with room for three directions of swing: it starts in one plane, and a push along w makes it \
-         wander through all of them, chaotic and without end.",
+         wander through all of them, chaotically.",
     );
     scene.sleeping = false;
     scene.bodies.push(Body::new(ShapeSpec::cube(4, 0.15)).named("hook").fixed().at([0.0, 4.0, 0.0, 0.0]));

@@ -302,12 +302,17 @@ impl<const N: usize> Passes<N> {
             let linear_velocity = p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
             let restitution = head[Layout::<N>::RESTITUTION];
             for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
-                let approach = row[Layout::<N>::POINT_VELOCITY];
-                let velocity = approach
+                let at_start = row[Layout::<N>::POINT_VELOCITY];
+                // Between the start of the step and the touch the body falls on; without this, a ball that gives back all
+                // of its speed would lose what it gained over that gap at every bounce.
+                let gap = row[Layout::<N>::POINT_GAP].max(zero);
+                let gained = Lanes::splat(-2.0) * row[Layout::<N>::POINT_ACCELERATION] * gap;
+                let approach = -(at_start * at_start + gained).max(zero).sqrt();
+                let velocity = at_start
                     + elapsed * row[Layout::<N>::POINT_ACCELERATION]
                     + linear_velocity
                     + p.measure_angular(&row[..2 * Self::K]);
-                let fast = (threshold - approach).select_positive(restitution, zero);
+                let fast = (threshold - at_start).select_positive(restitution, zero);
                 problem.excess[index] = velocity + fast * approach;
                 problem.softness[index] = zero;
                 problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
