@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use hyperbody_scene::{BUILT_IN, Scene};
+use hyperbody_scene::{BUILT_IN, BuiltIn, Scene};
 use serde::Serialize;
 
 use crate::arguments::ScenesArguments;
@@ -74,7 +74,7 @@ fn prepare(folder: &Path, force: bool) -> Result<(), Failure> {
     if let Err(error) = fs::create_dir_all(folder) {
         return refuse(folder, &format!("cannot be made: {error}"));
     }
-    for scene in BUILT_IN.iter().map(|built_in| built_in.scene()) {
+    for scene in BUILT_IN.iter().map(BuiltIn::scene) {
         let path = path_of(&scene, folder);
         if !force && path.exists() && fs::read(&path).is_ok_and(|old| old != scene.to_json().as_bytes()) {
             return refuse(&path, "is there already and differs; name another folder, or add --force to overwrite it");
