@@ -1,7 +1,7 @@
 //! The long run of the narrow phase's fuzzing, with the worst cases printed: `cargo run --release -p
 //! hyperbody-collision --example fuzz_narrow -- PAIRS [SEED]`.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use common::fuzz::{Plan, run};

@@ -9,10 +9,9 @@ use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Bivector, Vector};
 
 use crate::body::Body;
-use crate::handle::Arena;
 use crate::pairs::Pair;
 use crate::world::Collider;
-use crate::{BodyHandle, BodyKind, World};
+use crate::{BodyKind, World};
 
 impl<const N: usize> World<N> {
     /// Brings boxes, tree and pairs up to date with the bodies' poses.
@@ -126,62 +125,11 @@ impl<const N: usize> World<N> {
         })
     }
 
-    /// A sleeper that finds something at rest beside it, put there since it fell asleep, wakes to feel it.
-    fn wake_beside_newcomer(&mut self, pair: &Pair<N>) {
-        for (slot, other) in [(pair.body_a, pair.body_b), (pair.body_b, pair.body_a)] {
-            if self.bodies.at(other).is_some_and(|body| body.kind != BodyKind::Dynamic && !body.drifts()) {
-                self.islands.wake_body(slot, &mut self.bodies);
-            }
-        }
-    }
-
     fn are_joined(&self, body: &Body<N>, other: u32) -> bool {
         body.joints
             .iter()
             .filter_map(|&slot| self.joints.at(slot))
             .any(|joint| joint.body_a == other || joint.body_b == other)
-    }
-
-    /// Wakes the islands of the bodies that the user touched since the last step.
-    pub(crate) fn serve_wake_requests(&mut self) {
-        let mut requests = std::mem::take(&mut self.wake_requests);
-        requests.sort_unstable();
-        requests.dedup();
-        for &slot in &requests {
-            self.islands.wake_body(slot, &mut self.bodies);
-            let Some(body) = self.bodies.at_mut(slot) else { continue };
-            body.slow_time = 0.0;
-            if body.kind != BodyKind::Dynamic || body.quarantined {
-                self.wake_neighbours(slot);
-            }
-            let Some(body) = self.bodies.at(slot) else { continue };
-            for &collider in &body.colliders {
-                if let Some(collider) = &mut self.colliders[collider as usize] {
-                    // A teleported body must be looked at, static ones too.
-                    collider.moved = true;
-                }
-            }
-        }
-        requests.clear();
-        self.wake_requests = requests;
-        let bodies: &Arena<Body<N>, BodyHandle> = &self.bodies;
-        self.quarantined.retain(|&handle| bodies.get(handle).is_some_and(|body| body.quarantined));
-    }
-}
-
-impl<const N: usize> World<N> {
-    /// Wakes what lies beside a body that was moved by hand: it may have been its support.
-    fn wake_neighbours(&mut self, slot: u32) {
-        for pair in self.pairs.iter().filter(|pair| pair.body_a == slot || pair.body_b == slot) {
-            let other = if pair.body_a == slot { pair.body_b } else { pair.body_a };
-            self.islands.wake_body(other, &mut self.bodies);
-        }
-        let Some(body) = self.bodies.at(slot) else { return };
-        let ties = body.joints.iter().filter_map(|&joint| self.joints.at(joint));
-        let ends: Vec<u32> = ties.flat_map(|joint| [joint.body_a, joint.body_b]).collect();
-        for end in ends {
-            self.islands.wake_body(end, &mut self.bodies);
-        }
     }
 }
 

@@ -7,6 +7,7 @@ use hyperbody_math::{Bivector, Rotation, Vector};
 
 use crate::body::Body;
 use crate::solver::bodies::{Sizes, SolverBody};
+use crate::vetting::limit_speed;
 use crate::{BodyKind, Tuning, World};
 
 impl<const N: usize> World<N> {
@@ -95,15 +96,8 @@ fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
     body.force = Vector::ZERO;
     body.torque = Bivector::ZERO;
     body.refresh_angular_velocity();
-    let speed = body.velocity.norm();
-    if speed > tuning.max_speed {
-        body.velocity *= tuning.max_speed / speed;
-    }
-    let spin = body.angular_velocity.norm();
-    if spin > tuning.max_spin {
-        body.angular_momentum *= tuning.max_spin / spin;
-        body.angular_velocity *= tuning.max_spin / spin;
-    }
+    limit_speed(body, tuning);
+    let (speed, spin) = (body.velocity.norm(), body.angular_velocity.norm());
     let fastest = speed + spin * body.radius;
     body.slow_time = if fastest < tuning.sleep_speed { body.slow_time + dt } else { 0.0 };
 }

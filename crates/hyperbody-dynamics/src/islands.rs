@@ -9,7 +9,6 @@ use hyperbody_math::Vector;
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::narrow_phase::velocity_near;
 use crate::pairs::Pair;
 use crate::{BodyHandle, World};
 
@@ -58,6 +57,11 @@ impl Islands {
         true
     }
 
+    /// Sleeping islands, free ones included.
+    pub(crate) fn count(&self) -> usize {
+        self.sleeping.len()
+    }
+
     /// Wakes everything.
     pub(crate) fn wake_all<const N: usize>(&mut self, bodies: &mut Arena<Body<N>, BodyHandle>) {
         for slot in 0..bodies.slot_count() {
@@ -92,56 +96,6 @@ impl Islands {
 }
 
 impl<const N: usize> World<N> {
-    /// Wakes sleepers that something awake touches or is jointed to, until none is left.
-    pub(crate) fn wake_touched(&mut self) {
-        // Each round wakes at least one island or is the last.
-        for _ in 0..=self.islands.sleeping.len() {
-            let mut woken = false;
-            for slot in 0..self.pairs.slots().len() {
-                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-                let Some(pair) = self.pairs.get(slot as u32) else { continue };
-                let (a, b) = (pair.body_a, pair.body_b);
-                if self.touches_within_step(pair) {
-                    woken |= self.wake_across(a, b);
-                }
-            }
-            for slot in 0..self.joints.slot_count() {
-                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-                let Some(joint) = self.joints.at(slot as u32) else { continue };
-                let (a, b) = (joint.body_a, joint.body_b);
-                woken |= self.wake_across(a, b);
-            }
-            if !woken {
-                return;
-            }
-        }
-    }
-
-    /// Whether some point of a pair touches, or will before the step ends: the solver would press there.
-    fn touches_within_step(&self, pair: &Pair<N>) -> bool {
-        let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return false };
-        pair.manifold.points().iter().any(|point| {
-            let approach = velocity_near(a, point.position) - velocity_near(b, point.position);
-            let closing = approach.dot(pair.manifold.normal);
-            point.separation <= self.tuning.slop + closing.max(0.0) * self.dt
-        })
-    }
-
-    /// Wakes the one of two bodies that sleeps if the other one is up and about.
-    fn wake_across(&mut self, a: u32, b: u32) -> bool {
-        let (Some(body_a), Some(body_b)) = (self.bodies.at(a), self.bodies.at(b)) else { return false };
-        let disturbs = |body: &Body<N>| {
-            body.is_awake() && (body.is_moving() || body.velocity.norm_sq() + body.angular_velocity.norm_sq() > 0.0)
-        };
-        if body_a.asleep_in.is_some() && disturbs(body_b) {
-            return self.islands.wake_body(a, &mut self.bodies);
-        }
-        if body_b.asleep_in.is_some() && disturbs(body_a) {
-            return self.islands.wake_body(b, &mut self.bodies);
-        }
-        false
-    }
-
     /// Puts islands to sleep whose bodies have all been slow for long enough.
     pub(crate) fn fall_asleep(&mut self) {
         if !self.sleeping {

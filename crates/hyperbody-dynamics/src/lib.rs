@@ -11,7 +11,7 @@
 //! | `step` | the stages of one step, in order |
 //! | `vetting` | what users set is brought within limits |
 //! | `broad_phase`, `pairs`, `narrow_phase` | who may touch whom, and where |
-//! | `islands` | who rests together and falls asleep together |
+//! | `islands`, `waking` | who rests together and falls asleep together; who wakes, and why |
 //! | `solver` | contacts and joints become impulses |
 //! | `integrate` | impulses and forces become motion |
 //!
@@ -36,6 +36,7 @@ mod step;
 pub mod timings;
 pub mod tuning;
 mod vetting;
+mod waking;
 pub mod world;
 
 pub use body::{BodyDef, BodyKind, BodyMut, BodyRef};

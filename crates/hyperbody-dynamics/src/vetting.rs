@@ -37,9 +37,8 @@ pub(crate) fn in_bounds<const N: usize>(position: Vector<N>) -> bool {
     position.max_abs() <= POSITION_LIMIT
 }
 
-/// Slows a body down to the limits, and its pushes to what reaches the largest speed within the step; `false` if a push
-/// is beyond all numbers.
-fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) -> bool {
+/// Slows a body down to the limits.
+pub(crate) fn limit_speed<const N: usize>(body: &mut Body<N>, tuning: &Tuning) {
     body.velocity = shortened(body.velocity, tuning.max_speed);
     let spin = shortened_bivector(&body.angular_velocity, tuning.max_spin);
     if spin != body.angular_velocity {
@@ -48,6 +47,12 @@ fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) -> bool {
             body.angular_momentum = body.inertia.momentum(&body.rotation, &spin);
         }
     }
+}
+
+/// Slows a body down to the limits, and its pushes to what reaches the largest speed within the step; `false` if a push
+/// is beyond all numbers.
+fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) -> bool {
+    limit_speed(body, tuning);
     if body.kind != BodyKind::Dynamic {
         return true;
     }

@@ -10,6 +10,7 @@
 
 mod layout;
 mod normal;
+mod pairing;
 mod prepare;
 mod solve;
 

@@ -1,9 +1,10 @@
 //! The passes over contact rows: warm start, solve, bounce. This is where the time of a step goes.
 
 use super::normal::{NormalProblem, upper};
+use super::pairing::Pairing;
 use super::{Block, ContactRows, Layout};
 use crate::solver::bodies::Sizes;
-use crate::solver::lanes::{Lanes, Real, WIDTH};
+use crate::solver::lanes::{Lanes, Real};
 
 /// Where a pass stands in the step: factors on the base part of rows.
 #[derive(Clone, Copy, Debug)]
@@ -23,16 +24,6 @@ pub(crate) struct PassTimes {
     pub(crate) push_out_speed: Real,
     /// m/s; of the bounce.
     pub(crate) restitution_threshold: Real,
-}
-
-/// Changes of velocity of both bodies of a block, one body a lane, and the header's numbers that every row needs.
-struct Pairing<const N: usize> {
-    linear_a: [Lanes; N],
-    linear_b: [Lanes; N],
-    angular_a: [Lanes; MAX],
-    angular_b: [Lanes; MAX],
-    mass_a: Lanes,
-    mass_b: Lanes,
 }
 
 const MAX: usize = crate::solver::bodies::MAX_PLANES;
@@ -79,17 +70,15 @@ impl<const N: usize> Passes<N> {
             let mut p = Pairing::<N>::gather(block, rows, state);
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
             let (points, response) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
+            let displacement = Pairing::<N>::gather_displacement(block, head, state);
             // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
             // load, so that a sliding body loses exactly μ times its weight.
             if times.push {
                 Self::rub(block, head, points, &mut p, times);
-                let displacement = Pairing::<N>::gather_displacement(block, head, state);
-                Self::press(head, points, &mut p, times, &displacement, problem);
-                Self::finish_press(block, head, points, response, &mut p, problem);
-            } else {
-                let displacement = Pairing::<N>::gather_displacement(block, head, state);
-                Self::press(head, points, &mut p, times, &displacement, problem);
-                Self::finish_press(block, head, points, response, &mut p, problem);
+            }
+            Self::pose(head, points, &p, times, &displacement, problem);
+            Self::press(block, head, points, response, &mut p, problem);
+            if !times.push {
                 for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
                     let impulse = row[Layout::<N>::POINT_IMPULSE];
                     row[Layout::<N>::POINT_STEP_IMPULSE] += impulse;
@@ -214,12 +203,12 @@ impl<const N: usize> Passes<N> {
         load.div(length_sq.max(Lanes::splat(1.0)))
     }
 
-    /// States the problem of a block's normal rows.
+    /// Poses the problem of a block's normal rows.
     #[inline(always)]
-    fn press(
+    fn pose(
         head: &[Lanes],
         points: &[Lanes],
-        p: &mut Pairing<N>,
+        p: &Pairing<N>,
         times: &PassTimes,
         displacement: &Pairing<N>,
         problem: &mut NormalProblem,
@@ -256,7 +245,7 @@ impl<const N: usize> Passes<N> {
 
     /// Solves it and applies the change of impulses.
     #[inline(always)]
-    fn finish_press(
+    fn press(
         block: &Block,
         head: &[Lanes],
         points: &mut [Lanes],
@@ -331,108 +320,6 @@ impl<const N: usize> Passes<N> {
             }
             Self::apply_solution(head, points, &mut p, problem);
             p.scatter(block, state);
-        }
-    }
-}
-
-impl<const N: usize> Pairing<N> {
-    #[inline(always)]
-    fn gather(block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
-        Self::gather_at(block, rows, state, 0)
-    }
-
-    /// The displacements in place of the velocities.
-    #[inline(always)]
-    fn gather_displacement(block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
-        Self::gather_at(block, rows, state, Sizes::<N>::VELOCITY)
-    }
-
-    #[inline(always)]
-    fn gather_at(block: &Block, rows: &[Lanes], state: &[Real], part: usize) -> Self {
-        let mut p = Self {
-            linear_a: [Lanes::ZERO; N],
-            linear_b: [Lanes::ZERO; N],
-            angular_a: [Lanes::ZERO; MAX],
-            angular_b: [Lanes::ZERO; MAX],
-            mass_a: rows[Layout::<N>::INVERSE_SQRT_MASS_A],
-            mass_b: rows[Layout::<N>::INVERSE_SQRT_MASS_B],
-        };
-        for lane in 0..WIDTH {
-            let a = block.bodies_a[lane] as usize * Sizes::<N>::STATE + part;
-            let b = block.bodies_b[lane] as usize * Sizes::<N>::STATE + part;
-            let (a, b) = (&state[a..a + Sizes::<N>::VELOCITY], &state[b..b + Sizes::<N>::VELOCITY]);
-            for i in 0..N {
-                p.linear_a[i].0[lane] = a[i];
-                p.linear_b[i].0[lane] = b[i];
-            }
-            for k in 0..Sizes::<N>::K {
-                p.angular_a[k].0[lane] = a[N + k];
-                p.angular_b[k].0[lane] = b[N + k];
-            }
-        }
-        p
-    }
-
-    #[inline(always)]
-    fn scatter(&self, block: &Block, state: &mut [Real]) {
-        for lane in 0..WIDTH {
-            let a = block.bodies_a[lane] as usize * Sizes::<N>::STATE;
-            let a = &mut state[a..a + Sizes::<N>::VELOCITY];
-            for i in 0..N {
-                a[i] = self.linear_a[i].0[lane];
-            }
-            for k in 0..Sizes::<N>::K {
-                a[N + k] = self.angular_a[k].0[lane];
-            }
-            let b = block.bodies_b[lane] as usize * Sizes::<N>::STATE;
-            let b = &mut state[b..b + Sizes::<N>::VELOCITY];
-            for i in 0..N {
-                b[i] = self.linear_b[i].0[lane];
-            }
-            for k in 0..Sizes::<N>::K {
-                b[N + k] = self.angular_b[k].0[lane];
-            }
-        }
-        // Row 0 stands for all bodies that no impulse moves; infinite impulses must not make it anything but zero.
-        state[..Sizes::<N>::VELOCITY].fill(0.0);
-    }
-
-    /// Relative velocity of b against a along `direction`, linear part.
-    #[inline(always)]
-    fn measure_linear(&self, direction: &[Lanes]) -> Lanes {
-        let mut sum = Lanes::ZERO;
-        for i in 0..N {
-            sum += direction[i] * (self.linear_b[i] * self.mass_b - self.linear_a[i] * self.mass_a);
-        }
-        sum
-    }
-
-    /// The same, angular part, by the row's two arms.
-    #[inline(always)]
-    fn measure_angular(&self, arms: &[Lanes]) -> Lanes {
-        let mut sum_a = Lanes::ZERO;
-        let mut sum_b = Lanes::ZERO;
-        for k in 0..Sizes::<N>::K {
-            sum_a += arms[k] * self.angular_a[k];
-            sum_b += arms[Sizes::<N>::K + k] * self.angular_b[k];
-        }
-        sum_b - sum_a
-    }
-
-    #[inline(always)]
-    fn apply_linear(&mut self, direction: &[Lanes], impulse: Lanes) {
-        let (a, b) = (impulse * self.mass_a, impulse * self.mass_b);
-        for i in 0..N {
-            self.linear_a[i] -= direction[i] * a;
-            self.linear_b[i] += direction[i] * b;
-        }
-    }
-
-    #[inline(always)]
-    fn apply_angular(&mut self, arms: &[Lanes], impulse: Lanes) {
-        for k in 0..Sizes::<N>::K {
-            self.angular_a[k] -= arms[k] * impulse;
-            self.angular_b[k] += arms[Sizes::<N>::K + k] * impulse;
         }
     }
 }

@@ -1,0 +1,10 @@
+//! Every integration test of hyperbody-cli in one program: engine code generic in the dimension is compiled once for all of them.
+
+mod bad_input;
+mod common;
+mod inspect_regular;
+mod render;
+mod results;
+mod slice;
+mod spin;
+mod spin_reports;

@@ -1,0 +1,70 @@
+//! `hyperbody slice`: the files that it writes, and what it refuses.
+
+use crate::common::{file, hyperbody, json_of};
+
+fn number(value: &serde_json::Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[test]
+fn a_tesseract_across_its_diagonal_is_an_octahedron() {
+    let shape = file("slice/tesseract.json", r#"{"box": {"half_extents": [0.5, 0.5, 0.5, 0.5]}}"#);
+    let shape = shape.to_str().expect("UTF-8");
+    for (extension, start) in [("off", &b"OFF\n"[..]), ("obj", b"# "), ("stl", b"binary STL"), ("glb", b"glTF")] {
+        let out = file(&format!("slice/diagonal.{extension}"), "old");
+        let out = out.to_str().expect("UTF-8");
+        let report = json_of(&["slice", shape, "-o", out, "--normal", "1,1,1,1", "--json"]);
+        assert_eq!((report["vertices"].as_u64(), report["faces"].as_u64()), (Some(6), Some(8)), "{report}");
+        // The octahedron with edge √2 has the volume √2/3 · √8 = 4/3.
+        assert!((number(&report["volume"]) - 4.0 / 3.0).abs() < 1e-12, "{report}");
+        assert!(std::fs::read(out).expect("the file is there").starts_with(start));
+    }
+    let off = file("slice/diagonal.off", "");
+    let off = off.to_str().expect("UTF-8");
+    json_of(&["slice", shape, "-o", off, "--normal", "-1,-1,-1,-1", "--offset", "-0.5", "--json"]);
+    let inspected = json_of(&["inspect", off, "--json"]);
+    assert_eq!(inspected["faces"], serde_json::json!([12, 18, 8]), "a truncated tetrahedron");
+}
+
+#[test]
+fn curved_shapes_and_higher_dimensions_are_cut_too() {
+    let shape = file("slice/ball.json", r#"{"ball": {"radius": 2}}"#);
+    let shape = shape.to_str().expect("UTF-8");
+    let out = file("slice/ball.stl", "");
+    let out = out.to_str().expect("UTF-8");
+    // From five dimensions at two offsets: a ball of radius √(4 − 1 − 1).
+    let arguments = ["slice", shape, "-o", out, "--dimension", "5", "--offset", "1", "--offset", "1", "--json"];
+    let coarse = number(&json_of(&arguments)["volume"]);
+    let fine = number(&json_of(&[&arguments[..], &["--tolerance", "2e-4"]].concat())["volume"]);
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * 2_f64.powf(1.5);
+    assert!(coarse < fine && fine < ball && ball / fine - 1.0 < 1e-3, "{coarse} {fine} {ball}");
+}
+
+#[test]
+fn what_cannot_be_cut_is_refused_with_the_reason() {
+    let shape = file("slice/cube4.json", r#"{"box": {"half_extents": [1, 1, 1, 1]}}"#);
+    let flat = file("slice/cube3.json", r#"{"box": {"half_extents": [1, 1, 1]}}"#);
+    let floor = file("slice/floor.json", r#"{"half_space": {"normal": [0, 1, 0, 0], "offset": 0}}"#);
+    let path = |path: &std::path::PathBuf| path.to_str().expect("UTF-8").to_owned();
+    let out = path(&file("slice/refused.stl", "old"));
+    let cases: &[(&str, &[&str], &str)] = &[
+        (&path(&shape), &["--offset", "1.5"], "lies between -1 and 1"),
+        (&path(&shape), &["--normal", "1,2,3"], "has 3 numbers"),
+        (&path(&shape), &["--normal", "1,2,x,3"], "\"x\" is not a number"),
+        (&path(&shape), &["--normal", "0,0,0,0"], "not zero"),
+        (&path(&shape), &["--offset", "1", "--offset", "2"], "given 2 times"),
+        (&path(&shape), &["--offset", "nan"], "offset of a slice is NaN"),
+        (&path(&flat), &[], "3 dimensions"),
+        (&path(&floor), &[], "half-space has no end"),
+        ("nowhere.off", &[], "nowhere.off"),
+    ];
+    for (shape, more, reason) in cases {
+        let output = hyperbody(&[&["slice", shape, "-o", &out], *more].concat());
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(reason) && output.stdout.is_empty(), "{more:?}: {error}");
+        assert_eq!(std::fs::read(&out).expect("the old file"), b"old", "a refusal leaves the old file");
+    }
+    let output = hyperbody(&["slice", &path(&shape), "-o", "section.png"]);
+    assert_eq!(output.status.code(), Some(2));
+}

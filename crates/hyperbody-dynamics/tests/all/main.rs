@@ -1,0 +1,16 @@
+//! Every integration test of hyperbody-dynamics in one program: engine code generic in the dimension is compiled once for all of them.
+
+mod common;
+mod contact_table;
+mod free_top_common;
+mod free_top_elliptic;
+mod free_top_equations;
+mod free_top_exact;
+mod free_top_proportional;
+mod free_top_runs;
+mod free_top_stability;
+mod free_top_step;
+mod queries;
+mod robustness;
+mod stacks_and_piles;
+mod symmetry;

@@ -1,0 +1,252 @@
+//! What must not depend on the frame or the dimension: a scene of fewer dimensions placed in more moves as before, a
+//! turned scene moves turned, momentum is kept, a free body tumbles by the law, and threads change nothing.
+
+use crate::common::*;
+use hyperbody_dynamics::{BodyDef, BodyHandle, JointDef, World, WorldDef};
+use hyperbody_geometry::Shape;
+use hyperbody_math::{Bivector, Rotation, Vector};
+
+fn embed<const D: usize, const N: usize>(v: Vector<D>) -> Vector<N> {
+    Vector::from_fn(|i| if i < D { v[i] } else { 0.0 })
+}
+
+/// In space, and placed in `N` dimensions: a box that slides and pushes another, one that lands on an edge and tumbles,
+/// a pendulum, and a box that flies tumbling in all planes of space.
+fn scene<const N: usize>() -> (World<N>, Vec<BodyHandle>) {
+    let def = WorldDef { gravity: down(), sleeping: false, dt: 1.0 / 240.0, ..WorldDef::default() };
+    let mut world = World::<N>::new(def).unwrap();
+    add_floor(&mut world, material(0.4, 0.0));
+    // Moments of planes of space depend on the first three extents and the mass alone.
+    let shape = |x: f64, y: f64, z: f64| cuboid(Vector::from_fn(|axis| [x, y, z, 0.5, 0.5, 0.5][axis]));
+    let place = |x: f64, y: f64, z: f64| embed::<3, N>(Vector([x, y, z]));
+    let mut add = |def: BodyDef<N>| world.add_body(def.mass(2.0).material(material(0.4, 0.0))).unwrap();
+    let sliding = add(BodyDef::new(shape(0.5, 0.3, 0.4)).position(place(0.0, 0.3, 0.0)).velocity(place(4.0, 0.0, 0.0)));
+    let pushed = add(BodyDef::new(shape(0.3, 0.4, 0.4)).position(place(1.2, 0.4, 0.0)));
+    let landing = BodyDef::new(shape(0.5, 0.4, 0.3)).position(place(0.0, 1.2, 5.0)).velocity(place(1.0, 0.0, 0.0));
+    let landing = add(landing.rotation(Rotation::in_plane(0, 1, 0.3)));
+    let flying = BodyDef::new(shape(0.5, 0.4, 0.3)).position(place(0.0, 3.0, -5.0)).velocity(place(1.0, 12.0, 0.0));
+    let mut spin = Bivector::plane(0, 1, 2.0);
+    spin.set(1, 2, 1.0);
+    let flying = add(flying.angular_velocity(spin));
+    let bob = add(BodyDef::new(shape(0.2, 0.3, 0.1)).position(place(-5.0 + 0.8, 3.0, 0.0)));
+    let pivot = world.add_body(BodyDef::fixed(ball(0.1)).position(place(-5.0, 3.0, 0.0))).unwrap();
+    let anchor_b = place(-0.8, 0.0, 0.0);
+    world.add_joint(JointDef::Ball { a: pivot, b: bob, anchor_a: Vector::ZERO, anchor_b }).unwrap();
+    (world, vec![sliding, pushed, landing, flying, bob])
+}
+
+fn embedded<const N: usize>() {
+    let (mut space, in_space) = scene::<3>();
+    let (mut world, in_world) = scene::<N>();
+    let mut most = vec![0.0_f64; in_space.len()];
+    for _ in 0..480 {
+        space.step();
+        world.step();
+        for ((&a, &b), most) in in_space.iter().zip(&in_world).zip(&mut most) {
+            let (a, b) = (space.body(a).unwrap(), world.body(b).unwrap());
+            let apart = (embed::<3, N>(a.position()) - b.position()).norm();
+            *most = most.max(apart);
+        }
+    }
+    println!("{N}D departs from 3D by {most:?} m");
+    // Free flight and the pendulum are the same to rounding; contacts, to that of their rows in single precision.
+    let allowed = [1e-5, 1e-5, 1e-4, 1e-9, 1e-9];
+    let same = most.iter().zip(allowed).all(|(&apart, limit)| apart <= limit);
+    assert!(same, "{N}D departs from 3D by {most:?} m within two seconds, allowed {allowed:?}");
+}
+
+#[test]
+fn a_scene_of_space_moves_the_same_inside_more_dimensions() {
+    embedded::<4>();
+    embedded::<5>();
+    embedded::<6>();
+}
+
+/// Balls and their contacts have the same points in every dimension, so the motion agrees to single precision.
+fn embedded_balls<const N: usize>() {
+    fn balls<const N: usize>() -> World<N> {
+        let mut world = world(down::<N>());
+        add_floor(&mut world, material(0.4, 0.3));
+        for k in 0..4 {
+            let position = embed::<3, N>(Vector([0.6 * f64::from(k), 1.0 + 0.8 * f64::from(k), 0.1 * f64::from(k)]));
+            // The moments of a ball depend on n; a box of the same plane moments in every n does not roll, so the
+            // balls are smooth and their spin is left out.
+            let body = BodyDef::new(ball(0.5)).position(position).mass(1.0).material(material(0.0, 0.3));
+            world.add_body(body.velocity(embed::<3, N>(Vector([-0.5, 0.0, 0.2])))).unwrap();
+        }
+        world
+    }
+    let (mut space, mut world) = (balls::<3>(), balls::<N>());
+    for _ in 0..120 {
+        space.step();
+        world.step();
+    }
+    for ((_, a), (_, b)) in space.bodies().zip(world.bodies()) {
+        let apart = (embed::<3, N>(a.position()) - b.position()).norm();
+        assert!(apart < 1e-5, "{N}D departs from 3D by {apart} m");
+    }
+}
+
+#[test]
+fn smooth_balls_move_the_same_inside_more_dimensions() {
+    embedded_balls::<4>();
+    embedded_balls::<5>();
+    embedded_balls::<6>();
+}
+
+/// A scene turned by any rotation moves turned.
+fn turned<const N: usize>() {
+    fn build<const N: usize>(turn: Rotation<N>) -> (World<N>, BodyHandle) {
+        let mut world = world(turn.rotate(down::<N>()));
+        let floor = Shape::half_space(turn.rotate(Vector::unit(1)), 0.0).unwrap();
+        world.add_body(BodyDef::fixed(floor).material(material(0.3, 0.0))).unwrap();
+        let position = Vector::unit(1) * 0.5;
+        let body = BodyDef::new(ball(0.5))
+            .position(turn.rotate(position))
+            .velocity(turn.rotate(Vector::unit(0) * 3.0))
+            .angular_velocity(turn.rotate_bivector(&Bivector::plane(0, 1, 2.0)));
+        let rolling = world.add_body(body).unwrap();
+        let mut random = Random(9);
+        let rotation = random.rotation::<N>(0.5);
+        let falling = BodyDef::new(cuboid(Vector::from_fn(|axis| 0.3 + 0.1 * axis as f64)))
+            .position(turn.rotate(Vector::unit(1) * 2.0 - Vector::unit(0) * 4.0))
+            .rotation(turn * rotation);
+        world.add_body(falling).unwrap();
+        (world, rolling)
+    }
+    let turn = Random(21).rotation::<N>(2.0);
+    let (mut plain, _) = build::<N>(Rotation::IDENTITY);
+    let (mut other, _) = build::<N>(turn);
+    let mut most: f64 = 0.0;
+    for step in 0..60 {
+        plain.step();
+        other.step();
+        for ((_, a), (_, b)) in plain.bodies().zip(other.bodies()).skip(1) {
+            let apart = (turn.rotate(a.position()) - b.position()).norm();
+            most = most.max(apart);
+            assert!(apart < 1e-4, "the turned scene departs by {apart} m at step {step} in {N}D");
+        }
+    }
+    println!("turned, {N}D departs by {most} m");
+}
+
+#[test]
+fn a_turned_scene_moves_turned() {
+    turned::<2>();
+    turned::<3>();
+    turned::<4>();
+    turned::<5>();
+    turned::<6>();
+}
+
+/// Momentum is kept to rounding of the rows when only the bodies act on each other.
+fn momentum_is_kept<const N: usize>() {
+    let mut world = world(Vector::<N>::ZERO);
+    let mut random = Random(2);
+    for k in 0..12 {
+        let position = random.vector::<N>(1.0) + Vector::unit(0) * (1.5 * f64::from(k % 4) - 2.0);
+        let body = BodyDef::new(cuboid(Vector::splat(0.3))).position(position).velocity(random.vector::<N>(2.0));
+        world.add_body(body).unwrap();
+    }
+    let before = world.momentum();
+    let scale: f64 = world.bodies().map(|(_, body)| body.mass() * body.velocity().norm()).sum();
+    run(&mut world, 2.0);
+    let drift = (world.momentum() - before).norm();
+    assert!(drift < 2e-6 * scale, "momentum drifted by {drift} of {scale} in {N}D");
+    assert!(world.quarantined().is_empty());
+}
+
+#[test]
+fn momentum_is_kept_in_collisions() {
+    momentum_is_kept::<2>();
+    momentum_is_kept::<3>();
+    momentum_is_kept::<4>();
+    momentum_is_kept::<5>();
+    momentum_is_kept::<6>();
+}
+
+/// A box of half-extents 0.3 × 0.5 × 0.7 × 1.0 spins freely at 8 rad/s for a minute: momentum to 1e-10, energy to 1e-3, and
+/// the spin wanders between planes.
+#[test]
+fn a_free_tesseractoid_tumbles_by_the_law() {
+    let mut world = world(Vector::<4>::ZERO);
+    // Near a plane between the stablest, so that it must tumble.
+    let mut spin = Bivector::plane(0, 2, 7.9);
+    spin.set(0, 1, 0.9);
+    spin.set(1, 3, 0.7);
+    spin.set(2, 3, 0.5);
+    let spin = spin * (8.0 / spin.norm());
+    let body = BodyDef::new(cuboid(Vector([0.3, 0.5, 0.7, 1.0]))).angular_velocity(spin);
+    let body = world.add_body(body).unwrap();
+    let energy = world.energy().kinetic;
+    let momentum = world.body(body).unwrap().angular_momentum();
+    let mut drift_of_energy: f64 = 0.0;
+    let mut in_body_plane = Vec::new();
+    for _ in 0..3600 {
+        world.step();
+        drift_of_energy = drift_of_energy.max((world.energy().kinetic / energy - 1.0).abs());
+        let body = world.body(body).unwrap();
+        in_body_plane.push(body.rotation().inverse_rotate_bivector(&body.angular_velocity()).get(0, 2));
+    }
+    let drift = (world.body(body).unwrap().angular_momentum() - momentum).norm() / momentum.norm();
+    println!("angular momentum drift {drift:e}, energy drift {drift_of_energy:e}");
+    assert!(drift <= 1e-10, "angular momentum drifted by {drift}");
+    assert!(drift_of_energy <= 1e-3, "energy drifted by {drift_of_energy}");
+    let (low, high) = in_body_plane.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &w| (l.min(w), h.max(w)));
+    assert!(high - low > 4.0, "the spin stays in one plane of the body: {low}..{high}");
+}
+
+/// The same bits whatever the number of threads, and again when run again.
+#[test]
+fn threads_do_not_change_a_bit() {
+    fn hash(threads: usize) -> Vec<u64> {
+        let mut world = World::<4>::new(WorldDef { threads, ..WorldDef::default() }).unwrap();
+        add_floor(&mut world, material(0.5, 0.2));
+        let mut random = Random(77);
+        for k in 0..60 {
+            let position = random.vector::<4>(1.2) + Vector::unit(1) * (2.0 + 0.3 * f64::from(k));
+            let shape = match k % 3 {
+                0 => cuboid(Vector([0.3, 0.4, 0.3, 0.5])),
+                1 => ball(0.4),
+                _ => Shape::capsule(0.3, 0.3, 3).unwrap(),
+            };
+            world.add_body(BodyDef::new(shape).position(position).rotation(random.rotation(1.0))).unwrap();
+        }
+        (0..8)
+            .map(|_| {
+                run(&mut world, 0.5);
+                world.state_hash()
+            })
+            .collect()
+    }
+    let one = hash(1);
+    assert_eq!(one, hash(1), "a repeated run");
+    assert_eq!(one, hash(2), "two threads");
+    assert_eq!(one, hash(5), "five threads");
+}
+
+/// A body whose state turns non-finite is put aside and reported; the rest goes on.
+#[test]
+fn a_body_gone_wrong_is_quarantined() {
+    let mut world = world(down::<4>());
+    add_floor(&mut world, material(0.5, 0.0));
+    let good = world.add_body(BodyDef::new(ball(0.5)).position(Vector::unit(1) * 2.0)).unwrap();
+    let wrong = BodyDef::new(ball(0.5)).position(Vector::unit(0) * 3.0 + Vector::unit(1) * 3.0);
+    let wrong = world.add_body(wrong).unwrap();
+    // More than the largest finite number in one step's force.
+    for _ in 0..3 {
+        let _ = world.body_mut(wrong).unwrap().apply_force(Vector::unit(0) * 1e308);
+        let _ = world.body_mut(wrong).unwrap().apply_force(Vector::unit(0) * 1e308);
+        world.step();
+    }
+    run(&mut world, 2.0);
+    assert_eq!(world.quarantined(), [wrong]);
+    let body = world.body(wrong).unwrap();
+    assert!(body.is_quarantined() && body.position().is_finite() && body.velocity().is_finite());
+    assert!((world.body(good).unwrap().position()[1] - 0.5).abs() < 0.01, "the rest goes on");
+    let pose = hyperbody_math::Pose::from_translation(Vector::unit(1) * 5.0);
+    world.body_mut(wrong).unwrap().set_pose(pose).unwrap();
+    run(&mut world, 3.0);
+    assert!(world.quarantined().is_empty(), "a new pose ends the quarantine");
+    assert!(world.body(wrong).unwrap().position()[1] < 2.0, "and it falls again");
+}

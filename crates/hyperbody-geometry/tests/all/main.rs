@@ -1,0 +1,15 @@
+//! Every integration test of hyperbody-geometry in one program: engine code generic in the dimension is compiled once for all of them.
+
+mod common;
+mod hull;
+mod hull_noise;
+mod mass;
+mod meshes;
+mod off;
+mod products;
+mod regular;
+mod rounded;
+mod sections;
+mod sections_curved;
+mod shapes;
+mod surfaces;

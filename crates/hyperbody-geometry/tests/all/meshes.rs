@@ -1,0 +1,192 @@
+//! Surfaces of files that need not be convex: orientation, volume and moments against independent decompositions.
+
+use crate::common::Random;
+use hyperbody_geometry::decompose::convex_cells;
+use hyperbody_geometry::regular::{Size, polytope};
+use hyperbody_geometry::{GeometryErrorKind, MassProperties, OffFile, off};
+use hyperbody_math::{Matrix, Vector};
+
+fn mass<const N: usize>(file: &OffFile) -> MassProperties<N> {
+    let points = file.vertices::<N>().unwrap();
+    MassProperties::of_closed_boundary(&points, &file.boundary().unwrap()).unwrap()
+}
+
+fn assert_same<const N: usize>(found: &MassProperties<N>, expected: &MassProperties<N>) {
+    assert!((found.mass / expected.mass - 1.0).abs() < 1e-12, "{} for {}", found.mass, expected.mass);
+    assert!((found.centre - expected.centre).norm() < 1e-12);
+    assert!((found.second_moments - expected.second_moments).max_abs() < 1e-12 * expected.second_moments.max_abs());
+}
+
+#[test]
+fn convex_files_have_the_mass_of_their_hull() {
+    fn check<const N: usize>(names: &[&str]) {
+        for name in names {
+            let body = polytope::<N>(name, Size::Circumradius(1.3)).unwrap().translated(Vector::splat(0.3));
+            assert_same(&mass::<N>(&OffFile::from_polytope(&body)), &MassProperties::of_polytope(&body));
+        }
+    }
+    check::<2>(&["triangle", "7-gon"]);
+    check::<3>(&["cube", "dodecahedron", "icosahedron"]);
+    check::<4>(&["5-cell", "tesseract", "24-cell", "120-cell"]);
+    check::<5>(&["simplex", "hypercube"]);
+    check::<6>(&["simplex", "hypercube"]);
+}
+
+/// The surface of a set of unit cells of the grid of side three, as a file with cubic facets: the ranks below are shared.
+fn grid_file<const N: usize>(filled: &dyn Fn([usize; N]) -> bool) -> (String, Vec<[usize; N]>) {
+    const SIDE: usize = 3;
+    let cells: Vec<[usize; N]> = (0..SIDE.pow(N as u32))
+        .map(|k| std::array::from_fn(|i| k / SIDE.pow(i as u32) % SIDE))
+        .filter(|c| filled(*c))
+        .collect();
+    // A face is its lowest corner and the axes along which it extends.
+    let mut ranks: Vec<Vec<(Vec<usize>, Vec<usize>)>> = vec![Vec::new(); N];
+    let number = |rank: &mut Vec<(Vec<usize>, Vec<usize>)>, face: (Vec<usize>, Vec<usize>)| {
+        rank.iter().position(|known| *known == face).unwrap_or_else(|| {
+            rank.push(face);
+            rank.len() - 1
+        })
+    };
+    for cell in &cells {
+        for axis in 0..N {
+            for side in [0, 1] {
+                let mut beside = *cell;
+                let inside =
+                    if side == 0 { beside[axis].checked_sub(1) } else { Some(beside[axis] + 1).filter(|&c| c < SIDE) };
+                if let Some(c) = inside {
+                    beside[axis] = c;
+                    if filled(beside) {
+                        continue;
+                    }
+                }
+                let mut corner = cell.to_vec();
+                corner[axis] += side;
+                number(&mut ranks[N - 1], (corner, (0..N).filter(|&other| other != axis).collect()));
+            }
+        }
+    }
+    let mut lines: Vec<Vec<String>> = vec![Vec::new(); N];
+    for rank in (2..N).rev() {
+        for (corner, axes) in ranks[rank].clone() {
+            if rank == 2 {
+                let at = |a: usize, b: usize| {
+                    let mut corner = corner.clone();
+                    corner[axes[0]] += a;
+                    corner[axes[1]] += b;
+                    (corner, Vec::new())
+                };
+                let around =
+                    [at(0, 0), at(1, 0), at(1, 1), at(0, 1)].map(|face| number(&mut ranks[0], face).to_string());
+                lines[2].push(format!("4 {}", around.join(" ")));
+            } else {
+                let mut parts = Vec::new();
+                for &axis in &axes {
+                    for side in [0, 1] {
+                        let mut corner = corner.clone();
+                        corner[axis] += side;
+                        let rest = axes.iter().copied().filter(|&other| other != axis).collect();
+                        parts.push(number(&mut ranks[rank - 1], (corner, rest)).to_string());
+                    }
+                }
+                lines[rank].push(format!("{} {}", parts.len(), parts.join(" ")));
+            }
+        }
+    }
+    let mut text = format!("{N}OFF\n{} {} 0", ranks[0].len(), lines[2].len());
+    for rank in &lines[3..] {
+        text += &format!(" {}", rank.len());
+    }
+    text.push('\n');
+    for (corner, _) in &ranks[0] {
+        text += &(corner.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ") + "\n");
+    }
+    for line in lines.iter().flatten() {
+        text += &(line.clone() + "\n");
+    }
+    (text, cells)
+}
+
+/// The convex cells of a solid fill it: they add up to its moments, and are no more than its cubes.
+fn check_cells<const N: usize>(file: &OffFile, surface: &[[u32; N]], expected: &MassProperties<N>, cubes: usize) {
+    let cells = convex_cells(&file.vertices::<N>().unwrap(), surface).unwrap();
+    let parts: Vec<MassProperties<N>> = cells.iter().map(MassProperties::of_polytope).collect();
+    let sum = MassProperties::combined(&parts).unwrap();
+    assert!((sum.mass / expected.mass - 1.0).abs() < 1e-9, "{} for {}", sum.mass, expected.mass);
+    assert!((sum.second_moments - expected.second_moments).max_abs() < 1e-9 * expected.second_moments.max_abs());
+    assert!(cells.len() <= cubes, "{} cells for {cubes} cubes", cells.len());
+}
+
+/// Bodies of unit cubes: L, U and ring shapes, and at random. Their moments are sums over the cubes.
+fn bodies_of_cubes<const N: usize>() {
+    let mut random = Random(70 + N as u64);
+    let mut checked = 0;
+    for case in 0..24 {
+        let weights: Vec<u64> = (0..3_usize.pow(N as u32)).map(|_| random.bits() % 100).collect();
+        let filled = |c: [usize; N]| match case {
+            0 => c[0] == 0 || c[1] == 0,
+            1 => !(c[0] == 1 && c[1] == 1),
+            2 => c[0] == 0 || (c[1] != 1),
+            _ => weights[(0..N).map(|i| c[i] * 3_usize.pow(i as u32)).sum::<usize>()] < 60 && c[N - 1] == 0,
+        };
+        let (text, cells) = grid_file::<N>(&filled);
+        let file = off::parse(&text).unwrap();
+        // Cubes that touch along an edge only make a surface that branches.
+        let surface = match file.boundary::<N>() {
+            Ok(surface) => surface,
+            Err(error) => {
+                assert!(case > 2 && error.kind() == GeometryErrorKind::BadMesh, "{error}");
+                continue;
+            }
+        };
+        let found = MassProperties::of_closed_boundary(&file.vertices::<N>().unwrap(), &surface).unwrap();
+        let cube = |cell: &[usize; N]| MassProperties {
+            mass: 1.0,
+            centre: Vector::from_fn(|i| cell[i] as f64 + 0.5),
+            second_moments: Matrix::IDENTITY * (1.0 / 12.0),
+        };
+        let expected = MassProperties::combined(&cells.iter().map(cube).collect::<Vec<_>>()).unwrap();
+        assert_same(&found, &expected);
+        if N == 3 || case < 6 {
+            check_cells(&file, &surface, &expected, cells.len());
+        }
+        checked += 1;
+    }
+    assert!(checked >= 4, "only {checked}");
+}
+
+#[test]
+fn bodies_of_cubes_have_the_moments_of_the_cubes() {
+    bodies_of_cubes::<3>();
+    bodies_of_cubes::<4>();
+}
+
+#[test]
+fn open_and_one_sided_surfaces_are_refused() {
+    let open = "OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n";
+    let error = off::parse(open).unwrap().boundary::<3>().unwrap_err();
+    assert!(error.to_string().contains("open"), "{error}");
+    // The projective plane with six vertices (D. Hilbert, S. Cohn-Vossen, 1932): closed, with only one side.
+    let faces = ["0 1 2", "0 2 3", "0 3 4", "0 4 5", "0 5 1", "1 2 4", "2 3 5", "3 4 1", "4 5 2", "5 1 3"];
+    let mut plane = "OFF\n6 10 15\n0 0 1\n1 0 0\n0.3 1 0\n-0.8 0.6 0\n-0.8 -0.6 0\n0.3 -1 0\n".to_string();
+    faces.iter().for_each(|face| plane += &format!("3 {face}\n"));
+    let error = off::parse(&plane).unwrap().boundary::<3>().unwrap_err();
+    assert!(error.to_string().contains("one side"), "{error}");
+    assert_eq!(
+        off::parse("OFF\n1 0 0\n0 0 0\n").unwrap().boundary::<3>().unwrap_err().kind(),
+        GeometryErrorKind::BadCount
+    );
+    assert_eq!(off::parse(open).unwrap().boundary::<4>().unwrap_err().kind(), GeometryErrorKind::BadCount);
+}
+
+/// A pentagram's middle counts twice: |A| is the sum of the triangles of neighbouring points with the centre.
+#[test]
+fn stars_count_their_windings() {
+    let point = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / 5.0).sin_cos();
+        format!("{cos} {sin}\n")
+    };
+    let text = format!("2OFF\n5 1 5\n{}5 0 2 4 1 3\n", (0..5).map(point).collect::<String>());
+    let file = off::parse(&text).unwrap();
+    let expected = 2.5 * (std::f64::consts::TAU * 2.0 / 5.0).sin();
+    assert!((mass::<2>(&file).mass - expected).abs() < 1e-14);
+}

@@ -1,0 +1,157 @@
+//! OFF files: every form that programs write, round trips, and every way to break one.
+
+use crate::common::Random;
+use hyperbody_geometry::regular::{Size, names, polytope};
+use hyperbody_geometry::{GeometryErrorKind, OffFile, off};
+
+const TETRAHEDRON: &str = "OFF\n4 4 6\n1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n";
+
+#[test]
+fn forms_that_programs_write_are_the_same_file() {
+    let expected = off::parse(TETRAHEDRON).unwrap();
+    assert_eq!((expected.dimension(), expected.vertex_count()), (3, 4));
+    assert_eq!(expected.elements(2), [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);
+    let variants = [
+        TETRAHEDRON.replace('\n', "\r\n"),
+        TETRAHEDRON.replace('\n', " \t\n\n# comment 1 2 3\n"),
+        // Everything on one line, or every number on its own.
+        TETRAHEDRON.replace('\n', " "),
+        TETRAHEDRON.replace(['\n', ' '], "\n"),
+        TETRAHEDRON.replace("OFF\n", "off "),
+        TETRAHEDRON.replace("OFF", "3OFF"),
+        TETRAHEDRON.replace("OFF", "nOFF 3"),
+        TETRAHEDRON.replace("OFF", "\u{feff}OFF # a tetrahedron"),
+        // Edges second, unknown, or left out.
+        TETRAHEDRON.replace("4 4 6", "4 6 4"),
+        TETRAHEDRON.replace("4 4 6", "4 4 0"),
+        TETRAHEDRON.replace("4 4 6", "4 4"),
+        // Colours in every customary form.
+        TETRAHEDRON.replace("3 0 1 2", "3 0 1 2 255 0 0"),
+        TETRAHEDRON.replace("3 0 1 2", "3 0 1 2 0.5 0.25 1 1").replace("3 1 3 2", "3 1 3 2 17"),
+    ];
+    for text in variants {
+        assert_eq!(off::parse(&text).unwrap_or_else(|e| panic!("{e}: {text}")), expected, "{text}");
+    }
+}
+
+#[test]
+fn vertices_only_mean_their_hull() {
+    for counts in ["8 0 0", "8", "8 0", "8 0 12"] {
+        let text = format!("OFF\n{counts}\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1");
+        let cube = off::parse(&text).unwrap_or_else(|e| panic!("{e}: {counts}")).to_polytope::<3>().unwrap();
+        assert_eq!(cube.face_lattice().face_counts(), [8, 12, 6], "{counts}");
+    }
+    let wrong = off::parse(TETRAHEDRON).unwrap().to_polytope::<4>().unwrap_err();
+    assert!(wrong.to_string().contains("dimension 3, where 4"), "{wrong}");
+}
+
+fn round_trip<const N: usize>() {
+    for name in names(N) {
+        let original = polytope::<N>(name, Size::Edge(1.0 / 3.0)).unwrap();
+        let file = OffFile::from_polytope(&original);
+        let text = file.to_string();
+        let again = off::parse(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(again, file, "{name}");
+        assert_eq!(again.to_string(), text, "{name}");
+        let hull = again.to_polytope::<N>().unwrap();
+        assert_eq!(hull.vertices(), original.vertices(), "{name}");
+        assert_eq!(hull.facets().len(), original.facets().len(), "{name}");
+        for face in file.elements(2) {
+            for (k, &a) in face.iter().enumerate() {
+                let b = face[(k + 1) % face.len()];
+                assert!(original.neighbours_of_vertex(a as usize).contains(&b), "{name}: {face:?} is no cycle");
+            }
+        }
+    }
+}
+
+#[test]
+fn files_survive_writing_and_reading() {
+    round_trip::<2>();
+    round_trip::<3>();
+    round_trip::<4>();
+    round_trip::<5>();
+    round_trip::<6>();
+}
+
+/// Coordinates with six digits break flat facets up, unless the file's own facets are listened to.
+#[test]
+fn files_with_few_digits_keep_their_facets() {
+    for name in ["24-cell", "120-cell", "600-cell"] {
+        let exact = polytope::<4>(name, Size::Circumradius(1.0)).unwrap();
+        let mut text = String::new();
+        for line in OffFile::from_polytope(&exact).to_string().lines() {
+            let words: Vec<String> = line
+                .split(' ')
+                .map(|word| match word.parse::<f64>() {
+                    Ok(value) if word.contains('.') => format!("{value:.6}"),
+                    _ => word.to_string(),
+                })
+                .collect();
+            text += &(words.join(" ") + "\n");
+        }
+        let rounded = off::parse(&text).unwrap().to_polytope::<4>().unwrap();
+        assert_eq!(rounded.face_lattice().face_counts(), exact.face_lattice().face_counts(), "{name}");
+    }
+}
+
+#[test]
+fn errors_give_the_line_and_the_reason() {
+    let cases = [
+        ("", 1, "ends here"),
+        ("# nothing\n", 1, "ends here"),
+        ("PLY\n", 1, "must begin with OFF"),
+        ("COFF\n1 0 0\n", 1, "plain OFF"),
+        ("7OFF\n1 0 0\n", 1, "2 to 6"),
+        ("nOFF\n", 1, "the dimension"),
+        ("OFF\n", 1, "ends here"),
+        ("OFF\n4 -4 6\n", 2, "whole number"),
+        ("OFF\n18446744073709551615 4 6\n0 0 0\n", 2, "announced"),
+        ("OFF\n99999999999999999999999999 4 6\n", 2, "whole number"),
+        ("OFF\n4 4 6\n1 1 1\n1 -1 x\n", 2, "announced"),
+        (&TETRAHEDRON.replace("-1 1 -1", "-1 1 NaN"), 5, "finite"),
+        (&TETRAHEDRON.replace("-1 1 -1", "-1 1e999 -1"), 5, "finite"),
+        (&TETRAHEDRON.replace("3 0 3 1", "3 0 4 1"), 8, "counted from 0"),
+        (&TETRAHEDRON.replace("3 0 3 1", "2 0 3"), 8, "at least 3"),
+        (&TETRAHEDRON.replace("3 1 3 2", "3 1 3"), 10, "ends"),
+        (&(TETRAHEDRON.to_string() + "3 1 2 3\n"), 11, "more in the file"),
+    ];
+    for (text, line, reason) in cases {
+        let error = off::parse(text).unwrap_err();
+        assert_eq!(error.kind(), GeometryErrorKind::BadMesh);
+        let message = error.to_string();
+        assert!(message.contains(&format!("line {line}:")) && message.contains(reason), "{text:?}: {message}");
+    }
+}
+
+/// Success or a clear error, for every prefix and for random changes; what is read survives writing.
+#[test]
+fn broken_files_never_panic() {
+    let mut random = Random(7);
+    let cell = OffFile::from_polytope(&polytope::<4>("16-cell", Size::Circumradius(1.0)).unwrap()).to_string();
+    let penteract = OffFile::from_polytope(&polytope::<5>("5-simplex", Size::Edge(0.1)).unwrap()).to_string();
+    let check = |text: &str| match off::parse(text) {
+        Ok(file) => assert_eq!(off::parse(&file.to_string()).as_ref(), Ok(&file), "{text}"),
+        Err(error) => assert!(error.to_string().starts_with("OFF, line "), "{error}"),
+    };
+    for text in [TETRAHEDRON, &cell, &penteract] {
+        for length in 0..text.len() {
+            if text.is_char_boundary(length) {
+                check(&text[..length]);
+            }
+        }
+        for _ in 0..3_400 {
+            let mut bytes = text.as_bytes().to_vec();
+            for _ in 0..=random.below(4) {
+                let at = random.below(bytes.len());
+                match random.below(4) {
+                    0 => bytes[at] = b"0123456789-+.eE#nOF \n"[random.below(21)],
+                    1 => drop(bytes.remove(at)),
+                    2 => bytes.insert(at, b"0123456789-+.eE#nOF \n"[random.below(21)]),
+                    _ => bytes[at] = random.bits() as u8,
+                }
+            }
+            check(&String::from_utf8_lossy(&bytes));
+        }
+    }
+}

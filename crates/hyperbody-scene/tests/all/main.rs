@@ -1,0 +1,7 @@
+//! Every integration test of hyperbody-scene in one program: engine code generic in the dimension is compiled once for all of them.
+
+mod gallery;
+mod gallery_sentences;
+mod hostile_text;
+mod round_trip;
+mod shapes_rest;
