@@ -1,0 +1,328 @@
+// The running playground: the engine's client, the stage, the slice and the hands, tied together once a frame. Panels and
+// input call its methods and read its signals; nothing here knows of buttons or pointers.
+import { signal } from "@preact/signals";
+import { Vector3, type Ray } from "three";
+import type { EngineClient } from "../engine/client";
+import { RefusedError } from "../engine/client";
+import type { BodyDescription, BuiltIn, Frame, SceneDescription, Selected } from "../engine/protocol";
+import { Stage } from "../view/stage";
+import type { Picked } from "../view/pick";
+import { FlatlandView } from "../view/flatland";
+import { HAND, HandControl } from "./hand-control";
+import { Plots } from "./plots";
+import { QualityGuard } from "./quality";
+import { calm, settings } from "./settings";
+import { SliceControl } from "./slice-control";
+import { toFrame, toWorld, type SliceFrame } from "./slice-frame";
+
+/** How near to the slice ghosts are shown, m. */
+export const GHOST_REACH = 1.5;
+
+/** Panels are told of a frame this often: text that changes faster cannot be read. */
+const READOUT_MS = 80;
+
+/** A longer pause between two pictures is no motion: the tab was hidden. */
+const LONGEST_FRAME = 0.1;
+
+/** What the panels show of a frame. */
+export interface Readout {
+  time: number;
+  step: number;
+  paused: boolean;
+  slowdown: number;
+  workerMs: Frame["workerMs"];
+  selected: Selected | null;
+  history: Frame["history"];
+  energy: Frame["energy"];
+  asleep: number;
+  quarantined: readonly number[];
+  slice: SliceFrame;
+}
+
+export class Playground {
+  readonly scene = signal<SceneDescription | null>(null);
+  readonly builtins = signal<BuiltIn[]>([]);
+  readonly readout = signal<Readout | null>(null);
+  readonly selected = signal<number | null>(null);
+  readonly followed = signal<number | null>(null);
+  readonly speed = signal(1);
+  readonly gravity = signal<readonly number[]>([]);
+  readonly flatland = signal(false);
+  readonly notice = signal<string | null>(null);
+  readonly failure = signal<string | null>(null);
+  readonly plots = new Plots();
+  readonly stage: Stage;
+  readonly slice = new SliceControl();
+  readonly hands: HandControl;
+  readonly flat: FlatlandView;
+  readonly quality: QualityGuard;
+  /** Called with every frame of the engine, before it is drawn. */
+  readonly onFrame = new Set<(frame: Frame) => void>();
+  /** Called once a picture, with the seconds since the last one. */
+  readonly onPicture = new Set<(seconds: number) => void>();
+  private pictureWanted: ((picture: Blob) => void) | null = null;
+  private fresh = false;
+  private lastReadout = 0;
+  private lastPicture = 0;
+
+  constructor(readonly client: EngineClient, canvas: HTMLCanvasElement) {
+    this.stage = new Stage(canvas);
+    this.flat = new FlatlandView(this.stage);
+    this.quality = new QualityGuard(this.stage);
+    this.hands = new HandControl(client, () => this.drawnFrame(), (reason) => this.say(reason));
+    this.slice.pivot = () => this.pivot();
+    client.onFrame((frame) => this.take(frame));
+    client.onScene((scene, loaded) => this.takeScene(scene, loaded));
+    client.onError((message) => (this.failure.value = message));
+  }
+
+  start(): void {
+    this.stage.renderer.setAnimationLoop((time: number) => this.picture(time));
+  }
+
+  /** The frame whose points the view draws: the slice, or for Flatland the whole world. */
+  drawnFrame(): SliceFrame {
+    return this.flatland.value ? this.flat.wholeWorld : this.slice.frame;
+  }
+
+  body(id: number | null): BodyDescription | undefined {
+    return this.scene.value?.bodies.find((body) => body.id === id);
+  }
+
+  // --- what a person does ---------------------------------------------------------------------------------------------
+
+  async loadBuiltin(name: string): Promise<void> {
+    await this.attempt(this.client.request("loadBuiltin", { name }));
+  }
+
+  /** Loads scene text; rejects with a `RefusedError` that names the line, and the running scene goes on. */
+  async loadText(text: string): Promise<void> {
+    await this.client.request("load", { text });
+  }
+
+  reset(): void {
+    void this.attempt(this.client.request("reset", {}));
+  }
+
+  async undo(): Promise<void> {
+    const answer = await this.attempt(this.client.request("undo", {}));
+    if (answer?.undone) this.say(answer.undone);
+  }
+
+  setPaused(on: boolean): void {
+    const back = this.readout.value?.history.secondsBack ?? 0;
+    if (!on && back > 0) this.client.send("resumeHere", {});
+    this.client.send("pause", { on });
+  }
+
+  setSpeed(factor: number): void {
+    this.speed.value = factor;
+    this.client.send("speed", { factor });
+  }
+
+  setGravity(vector: readonly number[]): void {
+    this.gravity.value = vector;
+    this.client.send("gravity", { vector: [...vector] });
+  }
+
+  /** Gravity along a direction of the picture: right, up, towards the viewer. */
+  setGravityInView(direction: readonly [number, number, number], strength: number): void {
+    const inSlice = new Vector3(...direction).applyQuaternion(this.stage.orbit.camera.quaternion).toArray();
+    const { rows, shown } = this.drawnFrame();
+    this.setGravity(rows[0].map((_, axis) => strength * rows.slice(0, shown).reduce((sum, row, i) => sum + row[axis] * inSlice[i], 0)));
+  }
+
+  /** The next picture, as PNG. */
+  takePicture(done: (picture: Blob) => void): void {
+    this.pictureWanted = done;
+  }
+
+  select(body: number | null): void {
+    this.selected.value = body;
+    this.stage.styles.selected = body;
+    this.plots.clear();
+    this.client.send("select", { body });
+    if (body === null || this.followed.value !== body) this.followed.value = null;
+  }
+
+  /** Moves the slice so that it passes through the body's centre, and selects it. */
+  goTo(body: number): void {
+    this.select(body);
+    const centre = this.centre(body);
+    if (!centre) return;
+    const { shown } = this.slice.frame;
+    toFrame(this.slice.frame, centre).slice(shown).forEach((away, j) => this.slice.moveTo(this.slice.offset(j) + away, j));
+  }
+
+  remove(body: number): void {
+    void this.attempt(this.client.request("remove", { body }));
+    if (this.selected.value === body) this.select(null);
+  }
+
+  freeze(body: number, on: boolean): void {
+    void this.attempt(this.client.request("freeze", { body, on }));
+  }
+
+  /** Adds a body in front of the camera, in the slice. */
+  async spawn(shape: object, name: string): Promise<void> {
+    const { target } = this.stage.orbit;
+    const position = toWorld(this.drawnFrame(), target.toArray().slice(0, this.drawnFrame().shown));
+    const answer = await this.attempt(this.client.request("spawn", { shape, position: this.raised(position), name }));
+    if (answer) this.select(answer.body);
+  }
+
+  /** Spawned things fall a little, so that they are seen to come. */
+  private raised(position: number[]): number[] {
+    const up = this.gravity.value;
+    const strength = Math.hypot(...up);
+    const height = strength > 0 ? (this.scene.value?.extent ?? 1) * 0.35 + 0.6 : 0;
+    return position.map((value, axis) => value - (strength > 0 ? (height * up[axis]) / strength : 0));
+  }
+
+  /** The ray under a place on the page, CSS pixels. */
+  rayAt(x: number, y: number): Ray {
+    const box = this.stage.renderer.domElement.getBoundingClientRect();
+    return this.stage.ray((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
+  }
+
+  pickAt(x: number, y: number): Picked | null {
+    return this.stage.pick(this.rayAt(x, y));
+  }
+
+  /** Where a body's centre is on the page, CSS pixels. */
+  onPage(body: number): { x: number; y: number } | null {
+    const centre = this.centre(body);
+    if (!centre) return null;
+    const [x = 0, y = 0, z = 0] = toFrame(this.drawnFrame(), centre).slice(0, this.drawnFrame().shown);
+    const inPicture = new Vector3(x, y, z).project(this.stage.orbit.camera);
+    const box = this.stage.renderer.domElement.getBoundingClientRect();
+    return { x: box.left + ((inPicture.x + 1) / 2) * box.width, y: box.top + ((1 - inPicture.y) / 2) * box.height };
+  }
+
+  say(text: string): void {
+    this.notice.value = text;
+  }
+
+  /** The world point of a body's centre in the latest frame. */
+  centre(body: number): number[] | null {
+    const { frame } = this.client;
+    if (!frame) return null;
+    const n = frame.slice.origin.length;
+    const { centres, slice } = frame;
+    for (let at = 0; at + n < centres.length; at += n + 1) {
+      if (centres[at] !== body) continue;
+      const directions = [...slice.axes, ...slice.off];
+      return slice.origin.map((value, axis) =>
+        directions.reduce((sum, direction, row) => sum + centres[at + 1 + row] * direction[axis], value),
+      );
+    }
+    return null;
+  }
+
+  private async attempt<T>(request: Promise<T>): Promise<T | null> {
+    try {
+      return await request;
+    } catch (error) {
+      if (error instanceof RefusedError || error instanceof Error) this.say(error.message);
+      return null;
+    }
+  }
+
+  // --- once a picture -------------------------------------------------------------------------------------------------
+
+  private picture(time: number): void {
+    const seconds = Math.min(LONGEST_FRAME, Math.max(0, (time - this.lastPicture) / 1000));
+    this.lastPicture = time;
+    this.stage.orbit.calm = this.slice.calm = calm.value;
+    for (const listener of this.onPicture) listener(seconds);
+    this.slice.update(seconds, this.followedAway());
+    if (this.slice.takeChange()) this.sendSlice();
+    this.hands.update();
+    const { frame } = this.client;
+    if (this.fresh && frame) {
+      this.fresh = false;
+      this.stage.show(frame, GHOST_REACH);
+      this.flat.show(frame);
+      this.tell(frame, time);
+    }
+    this.stage.render(seconds);
+    if (this.flatland.value) this.flat.render(this.slice.frame);
+    this.quality.pictureTook(seconds);
+    // The canvas still holds what was drawn: it is cleared once this callback returns.
+    if (this.pictureWanted) this.stage.renderer.domElement.toBlob(handOver(this.pictureWanted), "image/png");
+    this.pictureWanted = null;
+  }
+
+  /** Tells the worker which slice to cut; Flatland cuts here, out of the whole world. */
+  sendSlice(): void {
+    const { rows, shown, origin } = this.drawnFrame();
+    const axes = rows.slice(0, shown).map((row) => [...row]);
+    this.client.send("slice", { origin: [...origin], axes, off: rows.slice(shown).map((row) => [...row]) });
+  }
+
+  private followedAway(): number[] | null {
+    if (this.followed.value === null) return null;
+    const centre = this.centre(this.followed.value);
+    return centre && toFrame(this.slice.frame, centre).slice(this.slice.frame.shown);
+  }
+
+  /** Turns of the slice go about what is held, selected, or looked at. */
+  private pivot(): readonly number[] {
+    const body = this.hands.holds(HAND.pointer) ?? this.selected.value;
+    const centre = body === null ? null : this.centre(body);
+    const { frame } = this.slice;
+    if (centre) return centre;
+    return toWorld(frame, this.stage.orbit.target.toArray().slice(0, frame.shown));
+  }
+
+  private take(frame: Frame): void {
+    this.fresh = true;
+    this.stage.setPickSurface(frame.surface);
+    for (const listener of this.onFrame) listener(frame);
+  }
+
+  private tell(frame: Frame, time: number): void {
+    if (frame.selected) this.plots.add(frame.time, frame.selected);
+    if (time - this.lastReadout < READOUT_MS) return;
+    this.lastReadout = time;
+    const { paused, slowdown, workerMs, selected, history, energy, quarantined, step } = frame;
+    this.readout.value = {
+      time: frame.time, step, paused, slowdown, workerMs, selected, history, energy, quarantined,
+      asleep: frame.asleep.length, slice: this.slice.frame,
+    };
+  }
+
+  private takeScene(scene: SceneDescription, loaded: boolean): void {
+    this.scene.value = scene;
+    if (loaded) this.begin(scene);
+    else this.stage.styles.setBodies(scene.bodies);
+    if (!scene.bodies.some((body) => body.id === this.selected.value)) this.select(null);
+  }
+
+  private begin(scene: SceneDescription): void {
+    this.hands.forget();
+    this.select(null);
+    this.gravity.value = scene.gravity;
+    this.setFlatland(scene.dimension === 3 && (scene.builtin ?? "").startsWith("flatland"));
+    const middle = new Vector3(...scene.middle.slice(0, 3), ...(scene.dimension === 2 ? [0] : []));
+    this.stage.setScene(scene, middle);
+    this.client.send("ghosts", { on: settings.ghosts.value, reach: GHOST_REACH });
+    this.client.send("wires", { on: settings.wires.value });
+    this.setSpeed(1);
+    scene.middle.slice(3).forEach((offset, j) => this.slice.moveTo(offset, j));
+  }
+
+  /** Worlds of three dimensions: the whole world, with the plane of Flatland in it and beside it what its people see. */
+  setFlatland(on: boolean): void {
+    const dimension = this.scene.value?.dimension ?? 4;
+    const allowed = on && dimension === 3;
+    this.flatland.value = allowed;
+    this.slice.reset(dimension, allowed ? 2 : Math.min(3, dimension));
+    this.flat.setVisible(allowed);
+    this.sendSlice();
+  }
+}
+
+function handOver(take: (picture: Blob) => void): BlobCallback {
+  return (picture) => picture && take(picture);
+}

@@ -1,0 +1,172 @@
+// Two controllers that grab independently: what one holds follows its place and its attitude. Sticks move and turn the
+// slice, a pressed stick teleports, trigger or grip on the wrist panel presses its buttons, and impacts of what is held
+// pulse in the hand that holds it.
+import { Group, Matrix4, Ray, Vector3, type XRTargetRaySpace } from "three";
+import { HAND } from "../../app/hand-control";
+import type { Playground } from "../../app/playground";
+import { settings } from "../../app/settings";
+import { toWorld } from "../../app/slice-frame";
+import type { Frame } from "../../engine/protocol";
+import { strengthOf } from "../feedback";
+import { makePointer, Teleport } from "./pointer-visuals";
+import { WristPanel } from "./wrist-panel";
+
+const DEAD_ZONE = 0.18;
+const PUSH_SPEED = 1.2;
+const PULSE_MS = 60;
+/** Index of the thumbstick's axes and button in the standard gamepad of WebXR ("xr-standard"). */
+const STICK_X = 2;
+const STICK_Y = 3;
+const STICK_BUTTON = 3;
+
+interface Controller {
+  space: XRTargetRaySpace;
+  source: XRInputSource | null;
+  hand: number;
+  /** The grabbed point in the controller's own axes. */
+  grip: Vector3 | null;
+  stickWasPressed: boolean;
+}
+
+export class Controllers {
+  private readonly controllers: Controller[];
+  private readonly panel: WristPanel;
+  private readonly teleport = new Teleport();
+  private readonly visuals = new Group();
+
+  constructor(private readonly playground: Playground) {
+    const { renderer, rig } = playground.stage;
+    this.panel = new WristPanel(playground);
+    this.controllers = [0, 1].map((index) => {
+      const space = renderer.xr.getController(index);
+      const controller: Controller = { space, source: null, hand: index === 0 ? HAND.left : HAND.right, grip: null, stickWasPressed: false };
+      space.add(makePointer());
+      rig.add(space);
+      space.addEventListener("connected", ({ data }) => this.connect(controller, data));
+      space.addEventListener("disconnected", () => this.disconnect(controller));
+      for (const press of ["selectstart", "squeezestart"] as const) space.addEventListener(press, () => this.press(controller));
+      for (const release of ["selectend", "squeezeend"] as const) space.addEventListener(release, () => this.release(controller));
+      return controller;
+    });
+    playground.stage.scene.add(this.visuals, this.teleport.marker);
+    playground.onFrame.add((frame) => this.pulse(frame));
+  }
+
+  setVisible(on: boolean): void {
+    this.visuals.visible = on;
+    this.teleport.marker.visible = false;
+    this.panel.mesh.visible = on;
+  }
+
+  /** Once a picture: hands follow the controllers, sticks act. */
+  update(seconds: number): void {
+    const { slice } = this.playground;
+    for (let view = 0; view < slice.frame.shown && slice.offCount > 0; view++) slice.setSpin(view, 0, 0);
+    if (slice.offCount > 0) slice.setGlide(0, 0);
+    for (const controller of this.controllers) {
+      if (!controller.source) continue;
+      this.follow(controller);
+      this.sticks(controller, seconds);
+    }
+    const pointing = this.controllers.filter(({ source }) => source?.handedness !== "left").map(({ space }) => rayOf(space));
+    this.panel.update(pointing);
+  }
+
+  private connect(controller: Controller, source: XRInputSource): void {
+    controller.source = source;
+    controller.hand = source.handedness === "right" ? HAND.right : HAND.left;
+    if (source.handedness === "left") controller.space.add(this.panel.mesh);
+  }
+
+  private disconnect(controller: Controller): void {
+    this.release(controller);
+    controller.source = null;
+  }
+
+  private press(controller: Controller): void {
+    const ray = rayOf(controller.space);
+    if (controller.source?.handedness !== "left" && this.panel.press(ray)) return;
+    const picked = this.playground.stage.pick(ray);
+    if (!picked || this.playground.body(picked.body)?.kind !== "dynamic") return;
+    controller.grip = controller.space.worldToLocal(picked.point.clone());
+    const frame = this.playground.drawnFrame();
+    this.playground.select(picked.body);
+    this.playground.hands.grab(controller.hand, picked.body, toWorld(frame, picked.point.toArray().slice(0, frame.shown)), false);
+    this.playground.hands.setAttitude(controller.hand, attitudeOf(controller.space));
+  }
+
+  private release(controller: Controller): void {
+    controller.grip = null;
+    this.playground.hands.release(controller.hand);
+  }
+
+  private follow(controller: Controller): void {
+    if (!controller.grip) return;
+    const point = controller.space.localToWorld(controller.grip.clone());
+    this.playground.hands.moveTo(controller.hand, point.toArray());
+    this.playground.hands.setAttitude(controller.hand, attitudeOf(controller.space));
+  }
+
+  private sticks(controller: Controller, seconds: number): void {
+    const gamepad = controller.source?.gamepad;
+    if (!gamepad) return;
+    const x = live(gamepad.axes[STICK_X] ?? 0);
+    const y = live(-(gamepad.axes[STICK_Y] ?? 0));
+    const { slice, hands } = this.playground;
+    if (slice.offCount > 0 && controller.source?.handedness === "left") {
+      slice.setGlide(0, y);
+      if (slice.frame.shown > 1) slice.setSpin(1, 0, x);
+    } else if (slice.offCount > 0) {
+      slice.setSpin(0, 0, x);
+      if (hands.holds(controller.hand) !== null) hands.push(controller.hand, slice.frame.shown, y * PUSH_SPEED * seconds);
+      else if (slice.frame.shown > 2) slice.setSpin(2, 0, y);
+    }
+    this.teleportBy(controller, gamepad.buttons[STICK_BUTTON]?.pressed ?? false);
+  }
+
+  /** Aims while the stick is pressed, goes when it is let go. */
+  private teleportBy(controller: Controller, pressed: boolean): void {
+    const { rig } = this.playground.stage;
+    if (pressed) this.teleport.aim(rayOf(controller.space), rig.position.y);
+    else if (controller.stickWasPressed) {
+      const goal = this.teleport.take();
+      if (goal) rig.position.set(goal.x, rig.position.y, goal.z);
+    }
+    controller.stickWasPressed = pressed;
+  }
+
+  private pulse(frame: Frame): void {
+    if (!settings.vibration.value) return;
+    for (const impact of frame.impacts) {
+      for (const controller of this.controllers) {
+        if (!impact.hands.includes(controller.hand)) continue;
+        const held = this.playground.body(this.playground.hands.holds(controller.hand));
+        const strength = strengthOf(impact, held?.mass ?? 1);
+        const actuator = controller.source?.gamepad?.hapticActuators?.[0];
+        if (strength > 0 && actuator && "pulse" in actuator) void (actuator as Pulses).pulse(strength, PULSE_MS);
+      }
+    }
+  }
+}
+
+/** What WebXR gamepads have; the DOM types know only the newer effects. */
+interface Pulses {
+  pulse(strength: number, milliseconds: number): Promise<boolean>;
+}
+
+function live(value: number): number {
+  return Math.abs(value) < DEAD_ZONE ? 0 : value;
+}
+
+/** Where a controller points, in the world. */
+function rayOf(space: XRTargetRaySpace): Ray {
+  space.updateWorldMatrix(true, false);
+  const origin = new Vector3().setFromMatrixPosition(space.matrixWorld);
+  return new Ray(origin, new Vector3(0, 0, -1).transformDirection(space.matrixWorld));
+}
+
+/** Rows of the controller's rotation in the world. */
+function attitudeOf(space: XRTargetRaySpace): number[][] {
+  const { elements } = new Matrix4().extractRotation(space.matrixWorld);
+  return [0, 1, 2].map((row) => [0, 1, 2].map((column) => elements[4 * column + row]));
+}

@@ -1,0 +1,86 @@
+// Starts the page: the engine in its worker, the view on its canvas, hands, and panels around it.
+import { render } from "preact";
+import { effect } from "@preact/signals";
+import { EngineClient } from "./engine/client";
+import { Playground, GHOST_REACH } from "./app/playground";
+import { settings } from "./app/settings";
+import { t } from "./i18n";
+import { Feedback } from "./input/feedback";
+import { KeyboardInput } from "./input/keyboard";
+import { PointerInput } from "./input/pointer";
+import { xr } from "./input/xr/session";
+import { sceneInLink } from "./scenes/library";
+import { App, Failure } from "./ui/app";
+import { PlaygroundProvider } from "./ui/context";
+import { acceptScenes } from "./ui/drop";
+import { runText } from "./ui/editor";
+import { offerReadOnly } from "./app/inspection";
+import "./ui/styles.css";
+
+/** What is loaded first: the first of these that is built in. */
+const FIRST_SCENES = ["hello4d", "dice4d"];
+
+function start(): void {
+  const root = document.getElementById("app");
+  if (!root) return;
+  const canvas = document.createElement("canvas");
+  canvas.className = "view";
+  canvas.tabIndex = -1;
+  const client = new EngineClient();
+  let playground: Playground;
+  try {
+    playground = new Playground(client, canvas);
+  } catch {
+    client.dispose();
+    render(<Failure title="Hyperbody" text={t().noWebGl} />, root);
+    return;
+  }
+  document.body.prepend(canvas);
+  const fit = () => playground.quality.resize(innerWidth, innerHeight);
+  addEventListener("resize", fit);
+  fit();
+  canvas.addEventListener("webglcontextlost", () => playground.say(t().contextLost));
+  new PointerInput(playground, canvas);
+  new KeyboardInput(playground);
+  new Feedback(playground);
+  acceptScenes(playground);
+  xr.prepare(playground);
+  followSettings(playground);
+  offerReadOnly(playground);
+  render(<PlaygroundProvider value={playground}><App /></PlaygroundProvider>, root);
+  playground.start();
+  void begin(playground);
+}
+
+/** What is drawn follows what is chosen. */
+function followSettings({ stage, client }: Playground): void {
+  effect(() => stage.surfaces.setMode(settings.surface.value));
+  effect(() => stage.edges.setOn(settings.edges.value));
+  effect(() => client.send("ghosts", { on: settings.ghosts.value, reach: GHOST_REACH }));
+  effect(() => client.send("wires", { on: settings.wires.value }));
+}
+
+async function begin(playground: Playground): Promise<void> {
+  try {
+    const { builtins } = await playground.client.ready();
+    playground.builtins.value = builtins;
+    await loadFirst(playground);
+  } catch (error) {
+    playground.failure.value ??= error instanceof Error ? error.message : String(error);
+  }
+}
+
+/** The scene in the address, or named in it, or the first of the gallery. */
+async function loadFirst(playground: Playground): Promise<void> {
+  const names = playground.builtins.value.map(({ name }) => name);
+  const asked = new URLSearchParams(location.search).get("scene");
+  const first = [asked, ...FIRST_SCENES].find((name) => name !== null && names.includes(name)) ?? names[0];
+  const linked = await sceneInLink(location.hash).catch(() => {
+    playground.say(t().badLink);
+    return null;
+  });
+  if (linked) await runText(playground, linked);
+  if (!playground.scene.value) await playground.loadBuiltin(first);
+}
+
+start();

@@ -1,0 +1,76 @@
+// Scenes that a person keeps in this browser, and scenes that travel in a link: compressed into the address after the
+// hash, which no server is ever sent.
+import { signal } from "@preact/signals";
+
+const KEY = "hyperbody.scenes";
+const LINK = "#scene=";
+
+export interface KeptScene {
+  name: string;
+  text: string;
+}
+
+export const keptScenes = signal<KeptScene[]>(readKept());
+
+function readKept(): KeptScene[] {
+  try {
+    const found: unknown = JSON.parse(localStorage.getItem(KEY) ?? "[]");
+    return Array.isArray(found) ? found.filter(isKept) : [];
+  } catch {
+    return [];
+  }
+}
+
+function isKept(value: unknown): value is KeptScene {
+  return typeof value === "object" && value !== null && "name" in value && "text" in value && typeof value.name === "string" && typeof value.text === "string";
+}
+
+/** Keeps a scene under its name, in place of an older one; false where the browser does not let it. */
+export function keepScene(scene: KeptScene): boolean {
+  return store([scene, ...keptScenes.value.filter(({ name }) => name !== scene.name)]);
+}
+
+export function forgetScene(name: string): void {
+  store(keptScenes.value.filter((scene) => scene.name !== name));
+}
+
+function store(scenes: KeptScene[]): boolean {
+  try {
+    localStorage.setItem(KEY, JSON.stringify(scenes));
+  } catch {
+    return false;
+  }
+  keptScenes.value = scenes;
+  return true;
+}
+
+/** The name in a scene's text, or a stand-in where the text is not yet one. */
+export function nameIn(text: string): string {
+  try {
+    const scene: unknown = JSON.parse(text);
+    if (typeof scene === "object" && scene !== null && "name" in scene && typeof scene.name === "string" && scene.name) return scene.name;
+  } catch {
+    // Not JSON yet: the stand-in does.
+  }
+  return "scene";
+}
+
+/** The part of an address that carries a scene. */
+export async function linkOf(text: string): Promise<string> {
+  const packed = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"));
+  const characters = Array.from(packed, (byte) => String.fromCharCode(byte)).join("");
+  return LINK + btoa(characters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+}
+
+/** The scene in an address; null where there is none. Rejects where it is damaged. */
+export async function sceneInLink(hash: string): Promise<string | null> {
+  if (!hash.startsWith(LINK)) return null;
+  const characters = atob(hash.slice(LINK.length).replaceAll("-", "+").replaceAll("_", "/"));
+  const packed = Uint8Array.from(characters, (character) => character.charCodeAt(0));
+  return new TextDecoder().decode(await through(packed, new DecompressionStream("deflate-raw")));
+}
+
+async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<Uint8Array<ArrayBuffer>> {
+  const result = new Blob([bytes]).stream().pipeThrough(stream);
+  return new Uint8Array(await new Response(result).arrayBuffer());
+}

@@ -1,0 +1,126 @@
+// Everything about the selected body, live: where it is, how it moves and turns, what it holds, and the last seconds of it.
+import { t } from "../i18n";
+import { BODY_COLOURS } from "../view/palette";
+import { AXES, AXIS_COLOURS, short, signed } from "./axes";
+import { LiveCanvas, type Draw } from "./canvas";
+import { usePlayground } from "./context";
+import { Icon, IconButton } from "./icons";
+import { bodyOpen } from "./state";
+import type { Plots, Sample } from "../app/plots";
+import type { Planes } from "../engine/protocol";
+
+export function BodyPanel() {
+  const playground = usePlayground();
+  const selected = playground.readout.value?.selected;
+  const id = playground.selected.value;
+  if (!selected || id === null || selected.body !== id) return null;
+  const following = playground.followed.value === id;
+  return (
+    <section class="body-panel glass" aria-label={t().body} data-testid="body-panel">
+      <header>
+        <span class="swatch" style={{ background: playground.stage.styles.of(id).css }} />
+        <h2>{selected.name}</h2>
+        <span class="state">{selected.frozen ? t().frozen : selected.sleeping ? t().asleep : `${short(selected.mass)} kg`}</span>
+        <button type="button" class="button" aria-expanded={bodyOpen.value} aria-label={t().body} onClick={() => (bodyOpen.value = !bodyOpen.value)}>
+          <Icon name="chevron" />
+        </button>
+        <IconButton icon="close" label={t().close} onPress={() => playground.select(null)} />
+      </header>
+      <div class="body-actions">
+        <IconButton icon="target" label={t().goThere} onPress={() => playground.goTo(id)} />
+        <IconButton icon="follow" label={following ? t().unfollow : t().follow} pressed={following} onPress={() => (playground.followed.value = following ? null : id)} />
+        <IconButton icon="freeze" label={selected.frozen ? t().thaw : t().freeze} pressed={selected.frozen} onPress={() => playground.freeze(id, !selected.frozen)} />
+        <IconButton icon="trash" label={t().remove} onPress={() => playground.remove(id)} />
+      </div>
+      {bodyOpen.value && (
+        <div class="numbers">
+          <Coordinates name={t().position} unit="m" values={selected.position} testid="position" />
+          <Coordinates name={t().velocity} unit="m/s" values={selected.velocity} testid="velocity" />
+          <Bars name={t().spin} unit="rad/s" planes={selected.angularVelocity} />
+          <Bars name={t().angularMomentum} unit="kg m²/s" planes={selected.angularMomentum} />
+          <Coordinates name={t().momentum} unit="kg m/s" values={selected.momentum} />
+          <h3>{t().rotor}</h3>
+          <p class="rotor">{selected.rotor.map((value) => signed(value)).join(" ")}</p>
+          <h3>{t().energy} <small>J</small></h3>
+          <p class="energy"><b style={{ color: BODY_COLOURS[1] }}>{short(selected.energy.kinetic)}</b> {t().kinetic} · <b style={{ color: BODY_COLOURS[0] }}>{short(selected.energy.potential)}</b> {t().potential}</p>
+          <h3>{t().plots}</h3>
+          <LiveCanvas class="plot" role="img" aria-label={t().energy} draw={energyPlot(playground.plots)} />
+          <LiveCanvas class="plot" role="img" aria-label={t().spin} draw={spinPlot(playground.plots)} />
+        </div>
+      )}
+    </section>
+  );
+}
+
+function Coordinates({ name, unit, values, testid }: { name: string; unit: string; values: readonly number[]; testid?: string }) {
+  return (
+    <>
+      <h3>{name} <small>{unit}</small></h3>
+      <p class="coordinates" data-testid={testid}>
+        {values.map((value, axis) => (
+          <span key={axis}><i style={{ color: AXIS_COLOURS[axis] }}>{AXES[axis]}</i>{signed(value)}</span>
+        ))}
+      </p>
+    </>
+  );
+}
+
+function Bars({ name, unit, planes }: { name: string; unit: string; planes: Planes }) {
+  const entries = Object.entries(planes);
+  const most = Math.max(1, ...entries.map(([, value]) => Math.abs(value)));
+  return (
+    <>
+      <h3>{name} <small>{unit}</small></h3>
+      <div class="bars">
+        {entries.map(([plane, value], index) => (
+          <div key={plane} class="bar">
+            <i style={{ color: planeColour(index) }}>{plane}</i>
+            <span class="track"><span style={{ left: `${value < 0 ? 50 + (50 * value) / most : 50}%`, width: `${(50 * Math.abs(value)) / most}%`, background: planeColour(index) }} /></span>
+            <b>{signed(value)}</b>
+          </div>
+        ))}
+      </div>
+    </>
+  );
+}
+
+function planeColour(index: number): string {
+  return BODY_COLOURS[index % BODY_COLOURS.length];
+}
+
+function energyPlot(plots: Plots): Draw {
+  return (context, width, height) => {
+    lines(context, width, height, plots.samples, [(sample) => sample.kinetic, (sample) => sample.potential], [BODY_COLOURS[1], BODY_COLOURS[0]]);
+  };
+}
+
+function spinPlot(plots: Plots): Draw {
+  return (context, width, height) => {
+    const planes = plots.planes.map((_, i) => (sample: Sample) => sample.angular[i]);
+    lines(context, width, height, plots.samples, planes, plots.planes.map((_, i) => planeColour(i)));
+  };
+}
+
+function lines(
+  context: CanvasRenderingContext2D, width: number, height: number, samples: readonly Sample[], values: ((sample: Sample) => number)[], colours: readonly string[],
+): void {
+  const last = samples.at(-1);
+  if (!last || samples.length < 2) return;
+  let [low, high] = [0, 1e-6];
+  for (const sample of samples) for (const value of values) [low, high] = [Math.min(low, value(sample)), Math.max(high, value(sample))];
+  const y = (value: number) => height - 3 - ((value - low) / (high - low)) * (height - 6);
+  const x = (time: number) => width - ((last.time - time) / 8) * width;
+  context.strokeStyle = "rgba(150, 170, 220, 0.25)";
+  context.beginPath();
+  context.moveTo(0, y(0));
+  context.lineTo(width, y(0));
+  context.stroke();
+  context.lineWidth = 1.5;
+  context.lineJoin = "round";
+  values.forEach((value, i) => {
+    context.strokeStyle = colours[i];
+    context.beginPath();
+    samples.forEach((sample, k) => (k === 0 ? context.moveTo(x(sample.time), y(value(sample))) : context.lineTo(x(sample.time), y(value(sample)))));
+    context.stroke();
+  });
+}

@@ -1,0 +1,118 @@
+// The compass: the world's axes as the slice shows them, in the camera's view, and a knob for each way of turning the
+// slice off. An axis that leaves the slice shortens to a ring; what takes its place grows.
+import { useRef } from "preact/hooks";
+import { Vector3 } from "three";
+import type { Playground } from "../app/playground";
+import { t } from "../i18n";
+import { AXES, AXIS_COLOURS } from "./axes";
+import { LiveCanvas } from "./canvas";
+import { usePlayground } from "./context";
+import { IconButton } from "./icons";
+
+const REACH = 0.7;
+/** An axis with less than this in the slice is drawn as a ring. */
+const GONE = 0.06;
+const RADIANS_PER_PIXEL = 0.011;
+const KEY_TURN = Math.PI / 36;
+
+export function Compass() {
+  const playground = usePlayground();
+  const frame = playground.readout.value?.slice;
+  const dimension = playground.scene.value?.dimension ?? 4;
+  if (!frame || dimension === frame.shown) return null;
+  const planes = Array.from({ length: frame.shown }, (_, i) => Array.from({ length: dimension - frame.shown }, (_, j) => [i, j] as const)).flat();
+  return (
+    <section class="compass glass" aria-label={t().slice}>
+      <LiveCanvas class="gimbal" role="img" aria-label={t().compass} title={t().compass} draw={(context, width, height) => paint(context, width, height, playground)} />
+      <div class="compass-buttons">
+        <IconButton icon="home" label={t().goHome} onPress={() => playground.slice.home()} />
+        <IconButton icon="snap" label={t().snap} onPress={() => playground.slice.snap()} />
+      </div>
+      <div class="knobs">{planes.map(([i, j]) => <Knob key={`${i}${j}`} view={i} off={j} />)}</div>
+    </section>
+  );
+}
+
+function paint(context: CanvasRenderingContext2D, width: number, height: number, playground: Playground): void {
+  const { rows, shown } = playground.slice.frame;
+  const size = (Math.min(width, height) / 2) * REACH;
+  const turnToCamera = playground.stage.orbit.camera.quaternion.clone().invert();
+  const arrows = rows.map((_, axis) => {
+    const inSlice = new Vector3(rows[0][axis], rows[1][axis], shown > 2 ? rows[2][axis] : 0);
+    return { axis, length: inSlice.length(), tip: inSlice.applyQuaternion(turnToCamera) };
+  });
+  arrows.sort((a, b) => a.tip.z - b.tip.z);
+  context.translate(width / 2, height / 2);
+  context.strokeStyle = "rgba(150, 170, 220, 0.2)";
+  context.beginPath();
+  context.arc(0, 0, size, 0, 2 * Math.PI);
+  context.stroke();
+  context.lineCap = "round";
+  context.font = "600 11px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  let rings = 0;
+  for (const { axis, length, tip } of arrows) {
+    context.strokeStyle = context.fillStyle = AXIS_COLOURS[axis];
+    if (length < GONE) {
+      rings += 1;
+      context.lineWidth = 1.5;
+      context.beginPath();
+      context.arc(0, 0, 3 + 3.5 * rings, 0, 2 * Math.PI);
+      context.stroke();
+      continue;
+    }
+    const [x, y] = [tip.x * size, -tip.y * size];
+    context.globalAlpha = 0.55 + 0.45 * (tip.z + 1) / 2;
+    context.lineWidth = 3;
+    context.beginPath();
+    context.moveTo(0, 0);
+    context.lineTo(x, y);
+    context.stroke();
+    const away = Math.hypot(x, y) || 1;
+    context.fillText(AXES[axis], x + (x / away) * 10, y + (y / away) * 10);
+    context.globalAlpha = 1;
+  }
+}
+
+/** A knob that turns the slice from one of the view's axes into an off direction: drag, arrow keys, double click for 90°. */
+function Knob({ view, off }: { view: number; off: number }) {
+  const playground = usePlayground();
+  const last = useRef<number | null>(null);
+  const { rows, shown } = playground.slice.frame;
+  const plane = `${AXES[view]}${AXES[shown + off]}`;
+  const angle = Math.atan2(rows[view][shown + off], rows[view][view]);
+  const move = (event: PointerEvent) => {
+    if (last.current === null) return;
+    const at = event.clientX - event.clientY;
+    playground.slice.turnBy(view, off, (at - last.current) * RADIANS_PER_PIXEL);
+    last.current = at;
+  };
+  const key = (event: KeyboardEvent) => {
+    const sign = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 }[event.key];
+    if (event.key === "Enter") playground.slice.quarter(view, off, 1);
+    if (sign) playground.slice.turnBy(view, off, sign * KEY_TURN);
+    if (sign || event.key === "Enter") {
+      event.preventDefault();
+      event.stopPropagation();
+    }
+  };
+  return (
+    <button
+      type="button" class="knob" role="slider" aria-label={t().turnPlane(plane)} aria-valuenow={Math.round((angle * 180) / Math.PI)} title={t().turnPlane(plane)}
+      onPointerDown={(event) => {
+        (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+        last.current = event.clientX - event.clientY;
+      }}
+      onPointerMove={move} onPointerUp={() => (last.current = null)} onPointerCancel={() => (last.current = null)}
+      onDblClick={() => playground.slice.quarter(view, off, 1)} onKeyDown={key}
+    >
+      <svg viewBox="-20 -20 40 40" aria-hidden="true">
+        <circle r="15" class="knob-rim" />
+        {[0, 90, 180, 270].map((tick) => <path key={tick} d="M0-18.500v3" transform={`rotate(${tick})`} class="knob-tick" />)}
+        <path d="M0 0V-12" transform={`rotate(${(angle * 180) / Math.PI})`} class="knob-hand" style={{ stroke: AXIS_COLOURS[shown + off] }} />
+      </svg>
+      <span>{plane}</span>
+    </button>
+  );
+}

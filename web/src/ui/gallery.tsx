@@ -1,0 +1,75 @@
+// The gallery: every built-in scene with its picture, in groups, and the person's own.
+import type { BuiltIn } from "../engine/protocol";
+import { language, t } from "../i18n";
+import { galleryGroups, pictureOf } from "../scenes/gallery";
+import { forgetScene, keptScenes } from "../scenes/library";
+import { usePlayground } from "./context";
+import { Dialog } from "./dialog";
+import { IconButton } from "./icons";
+import { sheet } from "./state";
+
+/** Title and sentence in the page's language; the engine's own are English. */
+export function sceneWords(scene: { name?: string; builtin?: string | null; title: string; sentence: string }): { title: string; sentence: string } {
+  const name = scene.name ?? scene.builtin ?? "";
+  return language.value === "en" ? scene : (t().scene[name] ?? scene);
+}
+
+export function Gallery() {
+  const playground = usePlayground();
+  const open = (name: string) => {
+    sheet.value = null;
+    void playground.loadBuiltin(name);
+  };
+  return (
+    <Dialog title={t().scenes} kind="gallery">
+      <div class="gallery-groups">
+        {keptScenes.value.length > 0 && <OwnScenes />}
+        {galleryGroups(playground.builtins.value).map(({ group, scenes }) => (
+          <section key={group}>
+            <h3>{t().group[group] ?? group}</h3>
+            <ul>{scenes.map((scene) => <Card key={scene.name} scene={scene} onOpen={() => open(scene.name)} />)}</ul>
+          </section>
+        ))}
+      </div>
+    </Dialog>
+  );
+}
+
+function Card({ scene, onOpen }: { scene: BuiltIn; onOpen: () => void }) {
+  const { title, sentence } = sceneWords(scene);
+  return (
+    <li>
+      <button type="button" class="card" data-scene={scene.name} onClick={onOpen}>
+        <img src={pictureOf(scene.name)} alt="" loading="lazy" width={320} height={200} onError={(event) => event.currentTarget.classList.add("missing")} />
+        <span class="badge">{t().dimensions(scene.dimension)}</span>
+        <strong>{title}</strong>
+        <small>{sentence}</small>
+      </button>
+    </li>
+  );
+}
+
+function OwnScenes() {
+  const playground = usePlayground();
+  return (
+    <section>
+      <h3>{t().mine}</h3>
+      <ul>
+        {keptScenes.value.map(({ name, text }) => (
+          <li key={name} class="own">
+            <button
+              type="button" class="card"
+              onClick={() => {
+                sheet.value = null;
+                playground.loadText(text).catch((error: Error) => playground.say(error.message));
+              }}
+            >
+              <strong>{name}</strong>
+            </button>
+            <IconButton icon="trash" label={t().remove} onPress={() => forgetScene(name)} />
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

@@ -1,0 +1,85 @@
+// The guided tour: two minutes in which the world shows itself. Each step sets the scene, moves the slice, says one or two
+// sentences, and leaves the hands free.
+import { useEffect } from "preact/hooks";
+import type { Playground } from "../app/playground";
+import { t } from "../i18n";
+import type { Words } from "../i18n/en";
+import { usePlayground } from "./context";
+import { sheet, tourStep } from "./state";
+
+interface Step {
+  words: keyof Words["tourSteps"];
+  seconds: number;
+  /** Scenes by preference: the first that is built in is loaded; none: the running one goes on. */
+  scenes?: readonly string[];
+  act?: (playground: Playground) => void;
+  /** Called with the seconds since the step began, many times a second. */
+  during?: (playground: Playground, elapsed: number) => void;
+}
+
+const SWEEP = 1.1;
+
+const STEPS: readonly Step[] = [
+  { words: "welcome", seconds: 9, scenes: ["hello4d", "dice4d"] },
+  { words: "slice", seconds: 13, during: (playground, elapsed) => playground.slice.moveTo(SWEEP * Math.sin((2 * Math.PI * elapsed) / 12)) },
+  { words: "strip", seconds: 11, act: (playground) => playground.slice.moveTo(0) },
+  { words: "ghosts", seconds: 11, during: (playground, elapsed) => playground.slice.moveTo(0.6 * Math.sin((2 * Math.PI * elapsed) / 10)) },
+  { words: "grab", seconds: 14, act: (playground) => playground.slice.moveTo(0) },
+  { words: "turn", seconds: 13, act: (playground) => playground.slice.quarter(0, 0, 1), during: turnBackAndForth },
+  { words: "home", seconds: 8, act: (playground) => playground.slice.home() },
+  { words: "dice", seconds: 13, scenes: ["dice4d"], during: (playground, elapsed) => playground.slice.moveTo(0.5 * Math.sin((2 * Math.PI * elapsed) / 9)) },
+  { words: "flatland", seconds: 14, scenes: ["flatland", "dominoes3d"], act: (playground) => playground.setFlatland(true), during: (playground, elapsed) => playground.slice.moveTo(Math.sin(elapsed / 2)) },
+  { words: "tumble", seconds: 12, scenes: ["tumble4d"] },
+  { words: "end", seconds: 8, scenes: ["hello4d", "dice4d"] },
+];
+
+function turnBackAndForth(playground: Playground, elapsed: number): void {
+  const wanted = (Math.PI / 4) * Math.sin((2 * Math.PI * elapsed) / 9);
+  const now = Math.atan2(playground.slice.frame.rows[0][playground.slice.frame.shown] ?? 0, playground.slice.frame.rows[0][0]);
+  if (elapsed > 1) playground.slice.turnBy(0, 0, (wanted - now) * 0.06);
+}
+
+export function Tour() {
+  const playground = usePlayground();
+  const index = tourStep.value;
+  useEffect(() => {
+    if (index === null) return;
+    sheet.value = null;
+    return run(playground, STEPS[index], () => (tourStep.value = index + 1 < STEPS.length ? index + 1 : null));
+  }, [index, playground]);
+  if (index === null) return null;
+  return (
+    <div class="tour glass" role="dialog" aria-live="polite" aria-label={t().tour}>
+      <p>{t().tourSteps[STEPS[index].words]}</p>
+      <footer>
+        <span class="dots" aria-hidden="true">{STEPS.map((step, i) => <i key={step.words} class={i === index ? "on" : ""} />)}</span>
+        <button type="button" class="button text" onClick={() => (tourStep.value = null)}>{t().tourSteps.skip}</button>
+        <button type="button" class="button text primary" onClick={() => (tourStep.value = index + 1 < STEPS.length ? index + 1 : null)}>{t().tourSteps.nextStep}</button>
+      </footer>
+    </div>
+  );
+}
+
+/** Runs a step; what is returned ends it early. */
+function run(playground: Playground, step: Step, next: () => void): () => void {
+  let ended = false;
+  let began = performance.now();
+  const tick = () => {
+    const elapsed = (performance.now() - began) / 1000;
+    step.during?.(playground, elapsed);
+    if (elapsed > step.seconds) next();
+  };
+  const begin = () => {
+    if (ended) return;
+    began = performance.now();
+    step.act?.(playground);
+    playground.onPicture.add(tick);
+  };
+  const scene = step.scenes?.find((name) => playground.builtins.value.some((builtin) => builtin.name === name));
+  if (scene) void playground.loadBuiltin(scene).then(begin);
+  else begin();
+  return () => {
+    ended = true;
+    playground.onPicture.delete(tick);
+  };
+}

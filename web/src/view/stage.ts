@@ -1,0 +1,144 @@
+// The stage: renderer, lights, sky, and all layers that a frame fills. It draws what it is given and decides nothing.
+import {
+  DirectionalLight, HemisphereLight, NoToneMapping, PCFShadowMap, Scene, Vector2, Vector3, WebGLRenderer, Raycaster, Group,
+} from "three";
+import type { Frame, SceneDescription, Surface } from "../engine/protocol";
+import { BodyStyles } from "./body-styles";
+import { EdgeLayer } from "./edges";
+import { HalfSpaceLayer } from "./half-spaces";
+import { HandLayer } from "./hands";
+import { GhostLayer, WireLayer } from "./off-slice";
+import { OrbitCamera } from "./orbit";
+import { Picker, type Picked } from "./pick";
+import { HAZE, makeSky } from "./sky";
+import { SurfaceLayer } from "./surfaces";
+
+/** Where the key light stands, seen from what it lights. */
+const KEY_FROM = new Vector3(0.45, 1, 0.55).normalize();
+const SHADOW_PIXELS = 2048;
+
+/** The camera stands so many extents away from a new scene. */
+const FIRST_DISTANCE = 3.1;
+const LEAST_EXTENT = 1.6;
+
+export class Stage {
+  readonly renderer: WebGLRenderer;
+  readonly scene = new Scene();
+  readonly orbit = new OrbitCamera();
+  /** Carries the camera: VR moves and scales it, everything else leaves it alone. */
+  readonly rig = new Group();
+  readonly styles = new BodyStyles();
+  readonly surfaces = new SurfaceLayer(this.styles);
+  readonly edges = new EdgeLayer(this.styles);
+  readonly ghosts = new GhostLayer();
+  readonly wires = new WireLayer();
+  readonly halfSpaces = new HalfSpaceLayer();
+  readonly hands = new HandLayer();
+  private readonly picker = new Picker();
+  private readonly key = new DirectionalLight("#fff0da", 2.5);
+  private extent = 4;
+  private readonly middle = new Vector3();
+
+  /** Throws where the browser has no WebGL. */
+  constructor(canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    this.renderer.toneMapping = NoToneMapping;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.xr.enabled = true;
+    this.scene.background = HAZE;
+    this.rig.add(this.orbit.camera);
+    this.light();
+    this.scene.add(
+      this.rig, makeSky(), this.halfSpaces.group, this.surfaces.mesh, this.edges.lines, this.ghosts.mesh, this.wires.lines, this.hands.group,
+    );
+  }
+
+  private light(): void {
+    const rim = new DirectionalLight("#7fa8ff", 0.9);
+    rim.position.set(-0.7, 0.35, -0.8);
+    this.scene.add(new HemisphereLight("#cfdaff", "#3a3f5c", 2.3), rim, this.key, this.key.target);
+    this.key.castShadow = true;
+    this.key.shadow.mapSize.set(SHADOW_PIXELS, SHADOW_PIXELS);
+    this.key.shadow.bias = -0.0006;
+    this.key.shadow.normalBias = 0.02;
+    this.key.shadow.radius = 4;
+  }
+
+  /** A new scene: colours, and the camera in front of all that moves. `middle` is a slice point. */
+  setScene(scene: SceneDescription, middle: Vector3): void {
+    this.styles.setBodies(scene.bodies);
+    this.extent = Math.max(LEAST_EXTENT, scene.extent);
+    this.middle.copy(middle);
+    this.halfSpaces.setScale(middle, this.extent);
+    this.frameAll();
+    this.orbit.jump();
+    this.aimLight();
+  }
+
+  /** Sends the camera to where the whole scene is seen. */
+  frameAll(): void {
+    const narrow = Math.max(1, 1.05 / this.orbit.camera.aspect);
+    this.orbit.lookAt(this.middle, FIRST_DISTANCE * this.extent * narrow, { yaw: 0.55, pitch: 0.3 });
+  }
+
+  private aimLight(): void {
+    const reach = 2.2 * this.extent;
+    const { camera } = this.key.shadow;
+    [camera.left, camera.right, camera.bottom, camera.top] = [-reach, reach, -reach, reach];
+    [camera.near, camera.far] = [0.1, 6 * reach];
+    camera.updateProjectionMatrix();
+    this.key.target.position.copy(this.middle);
+    this.key.position.copy(this.middle).addScaledVector(KEY_FROM, 3 * reach);
+  }
+
+  /** Takes the contents of a frame over; its arrays may be reused afterwards. */
+  show(frame: Frame, reach: number): void {
+    this.surfaces.update(frame.surface);
+    this.edges.update(frame.edges);
+    this.ghosts.update(frame.ghosts, reach);
+    this.wires.update(frame.wires);
+    this.halfSpaces.update(frame.halfSpaces, frame.slice);
+    this.hands.update(frame.hands, frame.slice);
+  }
+
+  /** What the pointer is tried against from now on; its arrays have to stay valid until the next call. */
+  setPickSurface(surface: Surface): void {
+    this.picker.setSurface(surface);
+  }
+
+  setShadows(on: boolean): void {
+    this.key.castShadow = on;
+  }
+
+  get sceneExtent(): number {
+    return this.extent;
+  }
+
+  get sceneMiddle(): Vector3 {
+    return this.middle;
+  }
+
+  resize(width: number, height: number, pixelRatio: number): void {
+    this.renderer.setPixelRatio(pixelRatio);
+    this.renderer.setSize(width, height, false);
+    this.orbit.camera.aspect = width / Math.max(1, height);
+    this.orbit.camera.updateProjectionMatrix();
+  }
+
+  render(seconds: number): void {
+    if (!this.renderer.xr.isPresenting) this.orbit.update(seconds);
+    this.renderer.render(this.scene, this.orbit.camera);
+  }
+
+  /** The ray through a point of the picture; x and y from −1 to 1, right and up. */
+  ray(x: number, y: number): Raycaster["ray"] {
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2(x, y), this.orbit.camera);
+    return caster.ray;
+  }
+
+  pick(ray: Raycaster["ray"]): Picked | null {
+    return this.picker.pick(ray);
+  }
+}
