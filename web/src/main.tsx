@@ -9,6 +9,7 @@ import { Feedback } from "./input/feedback";
 import { KeyboardInput } from "./input/keyboard";
 import { PointerInput } from "./input/pointer";
 import { xr } from "./input/xr/session";
+import { allScenes } from "./scenes/gallery";
 import { sceneInLink } from "./scenes/library";
 import { App, Failure } from "./ui/app";
 import { PlaygroundProvider } from "./ui/context";
@@ -70,17 +71,19 @@ async function begin(playground: Playground): Promise<void> {
   }
 }
 
-/** The scene in the address, or named in it, or the first of the gallery. */
+/** The scene in the address (`#scene=…`), or named in it (`?scene=pit4d&speed=0.5`), or the first of the gallery. */
 async function loadFirst(playground: Playground): Promise<void> {
-  const names = playground.builtins.value.map(({ name }) => name);
-  const asked = new URLSearchParams(location.search).get("scene");
+  const options = new URLSearchParams(location.search);
+  playground.usualSpeed = Number(options.get("speed")) || 1;
+  const names = allScenes(playground.builtins.value).map(({ name }) => name);
+  const asked = options.get("scene");
   const first = [asked, ...FIRST_SCENES].find((name) => name !== null && names.includes(name)) ?? names[0];
   const linked = await sceneInLink(location.hash).catch(() => {
     playground.say(t().badLink);
     return null;
   });
   if (linked) await runText(playground, linked);
-  if (!playground.scene.value) await playground.loadBuiltin(first);
+  if (!playground.scene.value) await playground.open(first);
 }
 
 start();

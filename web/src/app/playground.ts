@@ -9,6 +9,7 @@ import { Stage } from "../view/stage";
 import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
 import { HAND, HandControl } from "./hand-control";
+import { textOfOwn } from "../scenes/own";
 import { Plots } from "./plots";
 import { QualityGuard } from "./quality";
 import { calm, settings } from "./settings";
@@ -41,11 +42,15 @@ export interface Readout {
 
 export class Playground {
   readonly scene = signal<SceneDescription | null>(null);
+  /** What the gallery calls the running scene; null for scenes from elsewhere. */
+  readonly sceneName = signal<string | null>(null);
   readonly builtins = signal<BuiltIn[]>([]);
   readonly readout = signal<Readout | null>(null);
   readonly selected = signal<number | null>(null);
   readonly followed = signal<number | null>(null);
   readonly speed = signal(1);
+  /** What a scene begins with: real time, unless the address asks for another. */
+  usualSpeed = 1;
   readonly gravity = signal<readonly number[]>([]);
   readonly flatland = signal(false);
   readonly notice = signal<string | null>(null);
@@ -61,6 +66,8 @@ export class Playground {
   /** Called once a picture, with the seconds since the last one. */
   readonly onPicture = new Set<(seconds: number) => void>();
   private pictureWanted: ((picture: Blob) => void) | null = null;
+  private resetting = false;
+  private opening: string | null = null;
   private fresh = false;
   private lastReadout = 0;
   private lastPicture = 0;
@@ -91,17 +98,24 @@ export class Playground {
 
   // --- what a person does ---------------------------------------------------------------------------------------------
 
-  async loadBuiltin(name: string): Promise<void> {
-    await this.attempt(this.client.request("loadBuiltin", { name }));
+  /** Opens a scene of the gallery. */
+  async open(name: string): Promise<void> {
+    const text = await textOfOwn(name);
+    this.opening = name;
+    const opened = await this.attempt(text === null ? this.client.request("loadBuiltin", { name }) : this.client.request("load", { text }));
+    if (!opened) this.opening = this.sceneName.value;
   }
 
   /** Loads scene text; rejects with a `RefusedError` that names the line, and the running scene goes on. */
   async loadText(text: string): Promise<void> {
+    this.opening = null;
     await this.client.request("load", { text });
   }
 
+  /** The scene from its start; slice, camera and choices stay. */
   reset(): void {
-    void this.attempt(this.client.request("reset", {}));
+    this.resetting = true;
+    void this.attempt(this.client.request("reset", {})).then(() => (this.resetting = false));
   }
 
   async undo(): Promise<void> {
@@ -294,21 +308,22 @@ export class Playground {
 
   private takeScene(scene: SceneDescription, loaded: boolean): void {
     this.scene.value = scene;
-    if (loaded) this.begin(scene);
+    if (loaded && !this.resetting) this.begin(scene);
     else this.stage.styles.setBodies(scene.bodies);
+    if (loaded) this.hands.forget();
     if (!scene.bodies.some((body) => body.id === this.selected.value)) this.select(null);
   }
 
   private begin(scene: SceneDescription): void {
-    this.hands.forget();
+    this.sceneName.value = this.opening;
     this.select(null);
     this.gravity.value = scene.gravity;
-    this.setFlatland(scene.dimension === 3 && (scene.builtin ?? "").startsWith("flatland"));
+    this.setFlatland(this.sceneName.value?.startsWith("flatland") ?? false);
     const middle = new Vector3(...scene.middle.slice(0, 3), ...(scene.dimension === 2 ? [0] : []));
     this.stage.setScene(scene, middle);
     this.client.send("ghosts", { on: settings.ghosts.value, reach: GHOST_REACH });
     this.client.send("wires", { on: settings.wires.value });
-    this.setSpeed(1);
+    this.setSpeed(this.usualSpeed);
     scene.middle.slice(3).forEach((offset, j) => this.slice.moveTo(offset, j));
   }
 

@@ -1,4 +1,6 @@
 // The page's words in English: the reference that every other language is checked against by its type.
+import { enScenes, type SceneWords } from "./en-scenes";
+
 export const en = {
   language: "English",
   tagline: "Hold the fourth dimension",
@@ -121,10 +123,11 @@ export const en = {
 
   group: {
     first: "First steps", stacks: "Stacks to smash", dice: "Dice", piles: "Piles and pits", friction: "Ramps and friction", joints: "Pendulums and chains",
-    spins: "Gyroscopes and tumbling", games: "Games", bounces: "Bounces", compounds: "Compounds", higher: "Five and six dimensions", flatland: "Flatland",
+    spins: "Gyroscopes and tumbling", games: "Games", bounces: "Bounces", compounds: "Compounds", higher: "Five and six dimensions", flatland: "Flatland", plane: "Two dimensions",
     links: "Rings and holes", mine: "Yours",
   } as Record<string, string>,
-  scene: {} as Record<string, { title: string; sentence: string }>,
+  /** Titles and sentences of scenes where they differ from what comes with the scene. */
+  scene: enScenes as Record<string, SceneWords>,
 
   keys: {
     groupSlice: "Slice", groupTime: "Time", groupBody: "Body", groupView: "View", groupHands: "Mouse and touch",

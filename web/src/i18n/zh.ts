@@ -124,7 +124,7 @@ export const zh: Words = {
 
   group: {
     first: "入门", stacks: "堆叠与推倒", dice: "骰子", piles: "堆与坑", friction: "斜坡与摩擦", joints: "摆与链", spins: "陀螺与翻滚", games: "游戏", bounces: "弹跳",
-    compounds: "组合体", higher: "五维与六维", flatland: "平面国", links: "环与孔", mine: "我的",
+    compounds: "组合体", higher: "五维与六维", flatland: "平面国", plane: "二维", links: "环与孔", mine: "我的",
   },
   scene: zhScenes,
 

@@ -1,19 +1,40 @@
-// The gallery's order: groups as a newcomer does well to meet them, and in them the built-in scenes.
+// The gallery's order: groups as a newcomer does well to meet them, and in them the scenes of the engine and the page's own.
 import type { BuiltIn } from "../engine/protocol";
+import { ownScenes } from "./own";
 
-const ORDER = ["first", "stacks", "dice", "piles", "games", "links", "friction", "joints", "spins", "bounces", "compounds", "flatland", "higher"];
+const ORDER = ["first", "stacks", "dice", "piles", "games", "links", "friction", "joints", "spins", "bounces", "flatland", "higher", "plane"];
+
+/** Scenes of the engine that stand elsewhere than where their sort puts them. */
+const MOVED: Record<string, string> = { dice4d: "dice", rounded4d: "dice", embedded4d: "first" };
+
+/** From this dimension on scenes have a group of their own, as have those of two. */
+const HIGHER = 5;
 
 export interface GalleryGroup {
   group: string;
   scenes: BuiltIn[];
 }
 
-/** The built-in scenes by group; groups that the order does not know come last. */
+/** All scenes, in the order in which they are shown. */
+export function allScenes(builtins: readonly BuiltIn[]): BuiltIn[] {
+  return galleryGroups(builtins).flatMap(({ scenes }) => scenes);
+}
+
+/** The scenes by group; groups that the order does not know come last. */
 export function galleryGroups(builtins: readonly BuiltIn[]): GalleryGroup[] {
   const groups = new Map<string, BuiltIn[]>();
-  for (const scene of builtins) groups.set(scene.group, [...(groups.get(scene.group) ?? []), scene]);
+  for (const scene of [...ownScenes, ...builtins]) {
+    const group = groupOf(scene);
+    groups.set(group, [...(groups.get(group) ?? []), scene]);
+  }
   const rank = (group: string) => (ORDER.includes(group) ? ORDER.indexOf(group) : ORDER.length);
   return [...groups].map(([group, scenes]) => ({ group, scenes })).sort((a, b) => rank(a.group) - rank(b.group));
+}
+
+function groupOf(scene: BuiltIn): string {
+  if (scene.dimension >= HIGHER) return "higher";
+  if (scene.dimension === 2) return "plane";
+  return MOVED[scene.name] ?? scene.group;
 }
 
 /** Where the picture of a scene lies, from the page's folder. */

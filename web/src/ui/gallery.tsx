@@ -1,6 +1,6 @@
 // The gallery: every built-in scene with its picture, in groups, and the person's own.
 import type { BuiltIn } from "../engine/protocol";
-import { language, t } from "../i18n";
+import { t } from "../i18n";
 import { galleryGroups, pictureOf } from "../scenes/gallery";
 import { forgetScene, keptScenes } from "../scenes/library";
 import { usePlayground } from "./context";
@@ -8,17 +8,17 @@ import { Dialog } from "./dialog";
 import { IconButton } from "./icons";
 import { sheet } from "./state";
 
-/** Title and sentence in the page's language; the engine's own are English. */
-export function sceneWords(scene: { name?: string; builtin?: string | null; title: string; sentence: string }): { title: string; sentence: string } {
-  const name = scene.name ?? scene.builtin ?? "";
-  return language.value === "en" ? scene : (t().scene[name] ?? scene);
+/** Title and sentence in the page's language, as far as it has them; the scene's own are English. */
+export function sceneWords(name: string | null, scene: { title: string; sentence: string }): { title: string; sentence: string } {
+  const words = name === null ? undefined : t().scene[name];
+  return { title: words?.title ?? scene.title, sentence: words?.sentence ?? scene.sentence };
 }
 
 export function Gallery() {
   const playground = usePlayground();
   const open = (name: string) => {
     sheet.value = null;
-    void playground.loadBuiltin(name);
+    void playground.open(name);
   };
   return (
     <Dialog title={t().scenes} kind="gallery">
@@ -36,7 +36,7 @@ export function Gallery() {
 }
 
 function Card({ scene, onOpen }: { scene: BuiltIn; onOpen: () => void }) {
-  const { title, sentence } = sceneWords(scene);
+  const { title, sentence } = sceneWords(scene.name, scene);
   return (
     <li>
       <button type="button" class="card" data-scene={scene.name} onClick={onOpen}>

@@ -9,7 +9,7 @@ import { xr } from "../input/xr/session";
 export function TopBar() {
   const playground = usePlayground();
   const scene = playground.scene.value;
-  const words = scene && sceneWords(scene);
+  const words = scene && sceneWords(playground.sceneName.value, scene);
   return (
     <header class="top">
       <div class="brand">

@@ -4,6 +4,7 @@ import { useEffect } from "preact/hooks";
 import type { Playground } from "../app/playground";
 import { t } from "../i18n";
 import type { Words } from "../i18n/en";
+import { allScenes } from "../scenes/gallery";
 import { usePlayground } from "./context";
 import { sheet, tourStep } from "./state";
 
@@ -28,7 +29,7 @@ const STEPS: readonly Step[] = [
   { words: "turn", seconds: 13, act: (playground) => playground.slice.quarter(0, 0, 1), during: turnBackAndForth },
   { words: "home", seconds: 8, act: (playground) => playground.slice.home() },
   { words: "dice", seconds: 13, scenes: ["dice4d"], during: (playground, elapsed) => playground.slice.moveTo(0.5 * Math.sin((2 * Math.PI * elapsed) / 9)) },
-  { words: "flatland", seconds: 14, scenes: ["flatland", "dominoes3d"], act: (playground) => playground.setFlatland(true), during: (playground, elapsed) => playground.slice.moveTo(Math.sin(elapsed / 2)) },
+  { words: "flatland", seconds: 14, scenes: ["flatland_solids3d", "dominoes3d"], act: (playground) => playground.setFlatland(true), during: (playground, elapsed) => playground.slice.moveTo(Math.sin(elapsed / 2)) },
   { words: "tumble", seconds: 12, scenes: ["tumble4d"] },
   { words: "end", seconds: 8, scenes: ["hello4d", "dice4d"] },
 ];
@@ -75,8 +76,8 @@ function run(playground: Playground, step: Step, next: () => void): () => void {
     step.act?.(playground);
     playground.onPicture.add(tick);
   };
-  const scene = step.scenes?.find((name) => playground.builtins.value.some((builtin) => builtin.name === name));
-  if (scene) void playground.loadBuiltin(scene).then(begin);
+  const scene = step.scenes?.find((name) => allScenes(playground.builtins.value).some((each) => each.name === name));
+  if (scene) void playground.open(scene).then(begin);
   else begin();
   return () => {
     ended = true;

@@ -2,6 +2,7 @@
 // with the other hand.
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, Raycaster, SRGBColorSpace, type Ray } from "three";
 import type { Playground } from "../../app/playground";
+import { allScenes } from "../../scenes/gallery";
 import { settings } from "../../app/settings";
 import { t } from "../../i18n";
 import { toggleGravity } from "../../ui/more-panel";
@@ -56,10 +57,9 @@ export class WristPanel {
   }
 
   private nextScene(): void {
-    const { builtins, scene } = this.playground;
-    const at = builtins.value.findIndex(({ name }) => name === scene.value?.builtin);
-    const next = builtins.value[(at + 1) % builtins.value.length];
-    if (next) void this.playground.loadBuiltin(next.name);
+    const scenes = allScenes(this.playground.builtins.value);
+    const at = scenes.findIndex(({ name }) => name === this.playground.sceneName.value);
+    void this.playground.open(scenes[(at + 1) % scenes.length].name);
   }
 
   /** Lights the button that is pointed at, and draws anew where anything changed. */

@@ -1,0 +1,97 @@
+// Mouse and touch: pulling a body moves it, and the panel tells so; a second finger pushes it along w.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { DESKTOP, PHONE, centreOf, idOf, launch, open, serve, until, whereIs } from "./support.mjs";
+
+/** The place of w in a centre: three coordinates lie in the slice. */
+const W = 3;
+
+let browser, server;
+before(async () => ([browser, server] = await Promise.all([launch(), serve()])));
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+/** Waits until a body of the first scene lies still, so that it is where it was seen. */
+const settle = (page) => until(page, () => window.hyperbody.frame.time > 1.2, null, 30_000);
+
+const numbers = async (page, name) => {
+  const text = await page.getByTestId(name).innerText();
+  return [...text.replaceAll("−", "-").matchAll(/[a-z]\s*(-?\d+\.\d+)/g)].map((match) => Number(match[1]));
+};
+
+test("the mouse selects a body, pulls it, and the panel's numbers follow", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await settle(page);
+  const body = await idOf(page, "ball");
+  const from = await whereIs(page, body);
+  await page.mouse.click(from.x, from.y);
+  await until(page, (id) => window.hyperbody.selected === id && window.hyperbody.frame.selected?.body === id, body);
+  await page.getByTestId("body-panel").waitFor();
+  const before = await centreOf(page, body);
+  const shown = await numbers(page, "position");
+  assert.equal(shown.length, 4);
+  before.forEach((value, axis) => assert.ok(Math.abs(value - shown[axis]) < 0.02, `the panel says ${shown}, the world ${before}`));
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (let k = 1; k <= 12; k++) await page.mouse.move(from.x - 3 * k, from.y - 10 * k);
+  await until(page, ([id, y]) => {
+    const { frame } = window.hyperbody;
+    for (let at = 0; at < frame.centres.length; at += 5) if (frame.centres[at] === id) return frame.centres[at + 2] > y;
+    return false;
+  }, [body, before[1] + 0.4]);
+  assert.equal(await page.evaluate(() => window.hyperbody.frame.hands.length), 1);
+  await page.waitForFunction((y) => Number(document.querySelector("[data-testid=position]")?.textContent?.replaceAll("−", "-").match(/y\s*(-?\d+\.\d+)/)?.[1]) > y, before[1] + 0.3);
+  // The wheel pushes what is held out along w.
+  await page.mouse.wheel(0, -600);
+  await until(page, ([id, w]) => {
+    const { frame } = window.hyperbody;
+    for (let at = 0; at < frame.centres.length; at += 5) if (frame.centres[at] === id) return frame.centres[at + 4] > w;
+    return false;
+  }, [body, before[W] + 0.3]);
+  await page.mouse.up();
+  await until(page, () => window.hyperbody.frame.hands.length === 0);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("a second finger pushes what the first one holds along w", async () => {
+  const context = await browser.newContext(PHONE);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await settle(page);
+  const body = await idOf(page, "tesseract");
+  const { x, y } = await whereIs(page, body);
+  const before = await centreOf(page, body);
+  const session = await context.newCDPSession(page);
+  const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([px, py, id]) => ({ x: px, y: py, id })) });
+  await touch("touchStart", [x, y, 1]);
+  for (let k = 1; k <= 4; k++) await touch("touchMove", [x, y - 5 * k, 1]);
+  const second = [x + 90, 420];
+  await touch("touchStart", [x, y - 20, 1], [...second, 2]);
+  for (let k = 1; k <= 15; k++) await touch("touchMove", [x, y - 20, 1], [second[0], second[1] - 8 * k, 2]);
+  await until(page, ([id, w]) => {
+    const { frame } = window.hyperbody;
+    for (let at = 0; at < frame.centres.length; at += 5) if (frame.centres[at] === id) return frame.centres[at + 4] > w;
+    return false;
+  }, [body, before[W] + 0.4]);
+  await touch("touchEnd");
+  await until(page, () => window.hyperbody.frame.hands.length === 0);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("keys move and turn the slice, and bring it home", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await page.keyboard.down("e");
+  await until(page, () => window.hyperbody.slice.origin[3] > 0.4);
+  await page.keyboard.up("e");
+  await page.keyboard.press("Shift+R");
+  await until(page, () => Math.abs(window.hyperbody.slice.rows[0][3]) === 1);
+  await page.keyboard.press("Home");
+  await until(page, () => window.hyperbody.slice.rows.every((row, i) => row[i] === 1) && Math.abs(window.hyperbody.slice.origin[3]) < 1e-9);
+  assert.deepEqual(errors, []);
+  await context.close();
+});

@@ -1,0 +1,57 @@
+// The page comes up: quickly, without an error on the console, within the weight that a phone can bear.
+import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { after, before, test } from "node:test";
+import { gzipSync } from "node:zlib";
+import { DESKTOP, PHONE, launch, open, serve } from "./support.mjs";
+
+/** All that is fetched for play, compressed, bytes. */
+const MOST_BYTES = 1.5e6;
+const FIRST_SLICE_MS = 3000;
+
+let browser, server;
+before(async () => ([browser, server] = await Promise.all([launch(), serve()])));
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+test("the first slice is drawn within three seconds, and the console is clean", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const began = performance.now();
+  const { page, errors } = await open(context, server.address);
+  const took = performance.now() - began;
+  const vertices = await page.evaluate(() => window.hyperbody.frame.surface.positions.length / 3);
+  assert.ok(vertices > 0, "the first frame holds no triangle");
+  assert.deepEqual(errors, []);
+  assert.ok(took < FIRST_SLICE_MS, `the first slice took ${took.toFixed(0)} ms`);
+  await context.close();
+});
+
+test("on a phone of 360 px nothing sticks out", async () => {
+  const context = await browser.newContext(PHONE);
+  const { page, errors } = await open(context, server.address);
+  const out = await page.evaluate(() =>
+    [...document.querySelectorAll("#app button, #app canvas, #app input")]
+      .filter((element) => element.checkVisibility())
+      .map((element) => ({ name: element.getAttribute("aria-label") ?? element.className, box: element.getBoundingClientRect() }))
+      .filter(({ box }) => box.width > 0 && (box.left < -1 || box.right > innerWidth + 1))
+      .map(({ name }) => name),
+  );
+  assert.deepEqual(out, []);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("the page weighs at most 1.5 MB compressed", () => {
+  const dist = fileURLToPath(new URL("../dist/", import.meta.url));
+  const files = readdirSync(dist, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
+  const weigh = (entry) => {
+    const bytes = readFileSync(join(entry.parentPath ?? entry.path, entry.name));
+    return /\.(webp|png|jpg)$/.test(entry.name) ? bytes.length : gzipSync(bytes, { level: 9 }).length;
+  };
+  const total = files.reduce((sum, entry) => sum + weigh(entry), 0);
+  assert.ok(total <= MOST_BYTES, `the page weighs ${(total / 1e6).toFixed(2)} MB compressed`);
+});

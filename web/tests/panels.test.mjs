@@ -1,0 +1,106 @@
+// Panels: language, scenes dropped and broken, back through time, gravity, the gallery.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { DESKTOP, launch, open, serve, until } from "./support.mjs";
+
+let browser, server;
+before(async () => ([browser, server] = await Promise.all([launch(), serve()])));
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const drop = (page, text) => page.evaluate((content) => {
+  const transfer = new DataTransfer();
+  transfer.items.add(new File([content], "scene.json", { type: "application/json" }));
+  window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, cancelable: true }));
+}, text);
+
+const GOOD = `{
+  "format": "hyperbody-scene", "version": 1, "name": "Dropped", "dimension": 4,
+  "bodies": [
+    {"name": "only", "shape": {"ball": {"radius": 0.5}}, "position": [0, 3, 0, 0]}
+  ]
+}`;
+
+test("the language is the browser's, and can be switched", async () => {
+  const context = await browser.newContext({ ...DESKTOP, locale: "zh-CN" });
+  const { page, errors } = await open(context, server.address);
+  await page.getByRole("button", { name: "场景", exact: true }).waitFor();
+  assert.equal(await page.evaluate(() => document.documentElement.lang), "zh-CN");
+  await page.getByRole("button", { name: "更多" }).click();
+  await page.getByTestId("language").click();
+  await page.getByRole("button", { name: "Scenes", exact: true }).waitFor();
+  assert.equal(await page.evaluate(() => document.documentElement.lang), "en");
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("a dropped scene runs; a broken one names its line and the running scene goes on", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address);
+  await drop(page, GOOD);
+  await until(page, () => window.hyperbody.scene.title === "Dropped");
+  await drop(page, GOOD.replace('"radius": 0.5', '"radius": "half"'));
+  const problem = page.getByTestId("problem");
+  await problem.waitFor();
+  assert.match(await problem.innerText(), /^Line 4: /);
+  assert.equal(await page.evaluate(() => window.hyperbody.scene.title), "Dropped");
+  const step = await page.evaluate(() => window.hyperbody.frame.step);
+  await until(page, (before) => window.hyperbody.frame.step > before, step);
+  // Put right in the editor, it runs.
+  await page.getByTestId("editor-text").fill(GOOD.replace("Dropped", "Mended"));
+  await page.keyboard.press("Control+Enter");
+  await until(page, () => window.hyperbody.scene.title === "Mended");
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("a scene travels in a link", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page } = await open(context, server.address);
+  await page.keyboard.press("x");
+  await page.getByTestId("editor-text").fill(GOOD.replace("Dropped", "Travelled"));
+  await page.getByRole("button", { name: "Copy link" }).click();
+  await until(page, () => location.hash.startsWith("#scene="));
+  const link = page.url();
+  const second = await context.newPage();
+  await second.goto(link);
+  await until(second, () => window.hyperbody?.scene?.title === "Travelled");
+  await context.close();
+});
+
+test("scrubbing shows an earlier moment, and running goes on from there", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await until(page, () => window.hyperbody.frame.history.seconds > 1.5, null, 30_000);
+  const time = await page.evaluate(() => window.hyperbody.frame.time);
+  await page.getByTestId("scrub").evaluate((slider) => {
+    slider.value = "-1";
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+  await until(page, () => window.hyperbody.frame.history.secondsBack > 0.8);
+  const back = await page.evaluate(() => ({ time: window.hyperbody.frame.time, paused: window.hyperbody.frame.paused }));
+  assert.ok(back.time < time, `the moment shown (${back.time} s) is not before ${time} s`);
+  assert.equal(back.paused, true);
+  await page.keyboard.press("Space");
+  await until(page, (at) => !window.hyperbody.frame.paused && window.hyperbody.frame.time > at && window.hyperbody.frame.history.secondsBack === 0, back.time);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("gravity off: what is thrown up does not come down; added bodies can be undone", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  const bodies = await page.evaluate(() => window.hyperbody.scene.bodies.length);
+  await page.keyboard.press("v");
+  await page.locator("[data-shape=ball]").click();
+  await until(page, (count) => window.hyperbody.scene.bodies.length === count + 1, bodies);
+  await until(page, () => window.hyperbody.frame.selected !== null);
+  const energy = await page.evaluate(() => window.hyperbody.frame.selected.velocity.map(Math.abs));
+  assert.ok(Math.max(...energy) < 1, `a body added without gravity moves at ${energy}`);
+  await page.keyboard.press("Control+z");
+  await until(page, (count) => window.hyperbody.scene.bodies.length === count, bodies);
+  assert.deepEqual(errors, []);
+  await context.close();
+});

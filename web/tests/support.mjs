@@ -1,0 +1,70 @@
+// What every browser test needs: the built page on a server, Debian's Chromium, a page that remembers its errors.
+import { createServer } from "node:http";
+import { existsSync, readFileSync } from "node:fs";
+import { extname, join, normalize } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const DIST = fileURLToPath(new URL("../dist/", import.meta.url));
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".svg": "image/svg+xml", ".webp": "image/webp", ".json": "application/json" };
+
+/** Places where Chromium is looked for; CHROMIUM names another. */
+const BROWSERS = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+
+export const browserPath = BROWSERS.find((path) => path && existsSync(path));
+
+const FLAGS = [
+  "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+  "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-background-timer-throttling", "--disable-renderer-backgrounding",
+];
+
+/** Serves the built page on a free port of this machine. */
+export function serve() {
+  const server = createServer((request, response) => {
+    const path = normalize(decodeURIComponent(new URL(request.url, "http://x").pathname)).replace(/^(\.\.[/\\])+/, "");
+    const file = join(DIST, path.endsWith("/") ? `${path}index.html` : path);
+    if (!file.startsWith(DIST) || !existsSync(file)) {
+      response.writeHead(404).end();
+      return;
+    }
+    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream", "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" });
+    response.end(readFileSync(file));
+  });
+  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve({ address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() })));
+}
+
+export function launch() {
+  if (!browserPath) throw new Error("no Chromium: install Debian's package chromium, or name one in CHROMIUM");
+  return chromium.launch({ executablePath: browserPath, args: FLAGS });
+}
+
+/** Opens the page with a scene running; `errors` collects all that the console calls an error. */
+export async function open(context, address, { scene, query = "", ready = true } = {}) {
+  const page = await context.newPage();
+  const errors = [];
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  page.on("pageerror", (error) => errors.push(error.message));
+  await page.goto(`${address}?${scene ? `scene=${scene}` : ""}${query}`);
+  if (ready) await page.waitForFunction(() => (window.hyperbody?.frame?.number ?? 0) > 2, null, { timeout: 30_000 });
+  return { page, errors };
+}
+
+/** A context like a desktop's, small enough for software graphics. */
+export const DESKTOP = { viewport: { width: 900, height: 600 }, locale: "en-GB" };
+export const PHONE = { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, locale: "en-GB" };
+
+/** Waits until a function of the page answers something true. */
+export const until = (page, test, argument, timeout = 15_000) => page.waitForFunction(test, argument, { timeout });
+
+/** Coordinates of a body, in the world: [slice point…, off…] of the newest frame. */
+export const centreOf = (page, body) => page.evaluate((id) => {
+  const { frame } = window.hyperbody;
+  const stride = frame.slice.origin.length + 1;
+  for (let at = 0; at < frame.centres.length; at += stride) if (frame.centres[at] === id) return Array.from(frame.centres.subarray(at + 1, at + stride));
+  return null;
+}, body);
+
+/** The number of the body of this name. */
+export const idOf = (page, name) => page.evaluate((wanted) => window.hyperbody.scene.bodies.find((body) => body.name === wanted)?.id ?? null, name);
+
+export const whereIs = (page, body) => page.evaluate((id) => window.hyperbody.whereIs(id), body);
