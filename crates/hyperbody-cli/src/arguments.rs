@@ -32,9 +32,9 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Simulates a scene and says where everything ended up
     Run(RunArguments),
-    /// Draws a scene: a slice of it at a moment
+    /// Draws a scene or a recording: a slice of it as a picture, a film or a sheet of pictures
     Render(Box<RenderArguments>),
-    /// Says what is in a scene or a shape: mass properties, face counts
+    /// Says what is in a scene, a recording or a shape: mass properties, face counts
     Inspect(InspectArguments),
     /// Times scenes: median, 95th percentile and maximum per step
     Bench(BenchArguments),
@@ -50,7 +50,8 @@ pub(crate) enum Command {
 #[command(after_help = "Examples:\n  \
     hyperbody run dice4d                        ten seconds of four-dimensional dice\n  \
     hyperbody run my-scene.json --steps 600     a scene from a file\n  \
-    hyperbody run balls6d --threads 2 --json    everything as one JSON object\n\n\
+    hyperbody run balls6d --threads 2 --json    everything as one JSON object\n  \
+    hyperbody run pit4d --record pit.hbrec      a recording, for `hyperbody render pit.hbrec -o pit.gif`\n\n\
     The same scene gives the same bits, and so the same hash, for every number of threads and on every machine.")]
 pub(crate) struct RunArguments {
     /// A scene file or the name of a built-in scene
@@ -68,6 +69,13 @@ pub(crate) struct RunArguments {
     /// history. Without it nothing is random
     #[arg(long, value_name = "SEED")]
     pub(crate) seed: Option<u64>,
+    /// Write a recording: the scene, and where every body is at every step, to the bit. `hyperbody render` makes pictures
+    /// and films of it without simulating again
+    #[arg(long, value_name = "FILE")]
+    pub(crate) record: Option<PathBuf>,
+    /// Record every K-th step only; the first and the last are always recorded
+    #[arg(long, value_name = "K", default_value_t = 1, requires = "record", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_STEPS)))]
+    pub(crate) record_every: u32,
     /// Print one JSON object and nothing else
     #[arg(long)]
     pub(crate) json: bool,
@@ -76,11 +84,12 @@ pub(crate) struct RunArguments {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     hyperbody inspect stack4d                            a built-in scene\n  \
+    hyperbody inspect pit.hbrec                          a recording, checked to the last byte\n  \
     hyperbody inspect 24-cell.off                        a polytope from an OFF file\n  \
     echo '{\"box\": {\"half_extents\": [1, 2, 3, 4]}}' > box.json && hyperbody inspect box.json\n\n\
     A shape file holds what stands under \"shape\" in a scene.")]
 pub(crate) struct InspectArguments {
-    /// A scene (file or built-in name), or a shape: an OFF file, or the shape of a scene as .json
+    /// A scene (file or built-in name), a recording, or a shape: an OFF file, or the shape of a scene as .json
     pub(crate) file: String,
     /// Dimension of a shape that does not tell, such as a ball
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=6))]

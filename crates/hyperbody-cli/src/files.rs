@@ -1,6 +1,8 @@
 //! Files that commands write: checked before the work, written aside and renamed after it.
 
-use std::fs;
+use std::fmt::Display;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
@@ -19,12 +21,21 @@ impl Target {
     /// If the name ends otherwise, is a folder, or lies in a folder that is not there or takes no files.
     pub(crate) fn new(option: &str, path: &Path, extensions: &[&str]) -> Result<Self, Failure> {
         let refuse = |what: String| Err(Failure::Input(format!("{option}: {}: {what}", path.display())));
-        let extension =
-            path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
+        let extension = extension_of(path);
         if !extensions.contains(&extension.as_str()) {
             let wanted: Vec<String> = extensions.iter().map(|extension| format!(".{extension}")).collect();
             return refuse(format!("the name has to end in {}", wanted.join(" or ")));
         }
+        Self::anywhere(option, path)
+    }
+
+    /// A target with any ending.
+    ///
+    /// # Errors
+    /// If the name is a folder, or lies in a folder that is not there or takes no files.
+    pub(crate) fn anywhere(option: &str, path: &Path) -> Result<Self, Failure> {
+        let refuse = |what: String| Err(Failure::Input(format!("{option}: {}: {what}", path.display())));
+        let extension = extension_of(path);
         if path.is_dir() {
             return refuse("is a folder; name a file".to_owned());
         }
@@ -33,6 +44,9 @@ impl Target {
             return refuse(format!("there is no folder {}; make it first", folder.display()));
         }
         let target = Self { path: path.to_path_buf(), extension };
+        if target.is_special() {
+            return Ok(target);
+        }
         // Whether the folder takes files is seen by trying, before the work and not after it.
         match fs::write(target.aside(), []).and_then(|()| fs::remove_file(target.aside())) {
             Ok(()) => Ok(target),
@@ -51,17 +65,108 @@ impl Target {
         &self.extension
     }
 
-    /// Writes the file aside and renames it, so that a reader never sees half of it, and a failure leaves the old one.
+    /// Writes the file at once.
     pub(crate) fn write(&self, content: &[u8]) -> Result<(), Failure> {
-        let aside = self.aside();
-        fs::write(&aside, content).and_then(|()| fs::rename(&aside, &self.path)).map_err(|error| {
-            // The error of the write is the one to report.
-            let _ = fs::remove_file(&aside);
-            Failure::Work(format!("{}: cannot be written: {error}", self.path.display()))
+        let mut aside = self.open()?;
+        aside.write_all(content).map_err(|error| self.unwritable(&error))?;
+        aside.finish()
+    }
+
+    /// Opens the file for writing piece by piece.
+    pub(crate) fn open(&self) -> Result<Aside<'_>, Failure> {
+        let path = self.draft();
+        let file = if self.is_special() { File::options().write(true).open(&path) } else { File::create(&path) };
+        let file = file.map_err(|error| self.unwritable(&error))?;
+        Ok(Aside { target: self, writer: BufWriter::new(file), finished: false })
+    }
+
+    /// Where a program that writes the file itself has to write it; [`Target::publish`] or [`Target::discard`] comes after it.
+    pub(crate) fn draft(&self) -> PathBuf {
+        if self.is_special() { self.path.clone() } else { self.aside() }
+    }
+
+    /// Gives what was written aside its name.
+    pub(crate) fn publish(&self) -> Result<(), Failure> {
+        if self.is_special() {
+            return Ok(());
+        }
+        fs::rename(self.aside(), &self.path).map_err(|error| {
+            self.discard();
+            self.unwritable(&error)
         })
+    }
+
+    /// Removes what was written aside.
+    pub(crate) fn discard(&self) {
+        if !self.is_special() {
+            // There is an error to report already, or nothing was written.
+            let _ = fs::remove_file(self.aside());
+        }
+    }
+
+    /// What is said where writing fails.
+    pub(crate) fn unwritable(&self, error: &dyn Display) -> Failure {
+        Failure::Input(format!("{}: cannot be written: {error}", self.path.display()))
+    }
+
+    /// The name, for messages.
+    pub(crate) fn display(&self) -> impl Display {
+        self.path.display()
+    }
+
+    /// The same target with another ending.
+    ///
+    /// # Errors
+    /// As [`Target::new`].
+    pub(crate) fn with_ending(&self, option: &str, extension: &'static str) -> Result<Self, Failure> {
+        Self::new(option, &self.path.with_extension(extension), &[extension])
+    }
+
+    /// Devices and pipes are written to; a file in their place would not be what was meant.
+    fn is_special(&self) -> bool {
+        fs::metadata(&self.path).is_ok_and(|metadata| !metadata.is_file())
+    }
+}
+
+/// A file in the making. It is written aside and gets its name when it is finished, so that a reader never sees half of it, and
+/// a failure leaves the old one.
+pub(crate) struct Aside<'a> {
+    target: &'a Target,
+    writer: BufWriter<File>,
+    finished: bool,
+}
+
+impl Aside<'_> {
+    /// Gives the file its name.
+    pub(crate) fn finish(mut self) -> Result<(), Failure> {
+        self.writer.flush().map_err(|error| self.target.unwritable(&error))?;
+        self.finished = true;
+        self.target.publish()
+    }
+}
+
+impl Write for Aside<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.writer.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
+}
+
+impl Drop for Aside<'_> {
+    fn drop(&mut self) {
+        if !self.finished {
+            self.target.discard();
+        }
     }
 }
 
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn extension_of(path: &Path) -> String {
+    path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default()
 }

@@ -1,5 +1,6 @@
-//! `hyperbody inspect`: what is in a scene or a shape.
+//! `hyperbody inspect`: what is in a scene, a recording or a shape.
 
+mod recording;
 mod scene;
 mod shape;
 
@@ -14,19 +15,29 @@ use crate::source;
 
 pub(crate) fn inspect(arguments: &InspectArguments) -> Result<(), Failure> {
     let path = Path::new(&arguments.file);
+    if let Some(recording) = source::recording(&arguments.file)? {
+        let report = recording::report(recording, &arguments.file)?;
+        check_dimension(arguments, report.dimension())?;
+        return if arguments.json { print_json(&report) } else { print(report.as_text()) };
+    }
     if path.is_file() && !ShapeFile::holds_scene(path)? {
         let file = ShapeFile::load(path, arguments.dimension.map(usize::from)).map_err(with_dimension_hint)?;
         let report = shape::report(&file)?;
         return if arguments.json { print_json(&report) } else { print(shape::as_text(&report, &arguments.file)) };
     }
     let scene: Scene = source::scene(&arguments.file)?;
-    if let Some(dimension) = arguments.dimension
-        && usize::from(dimension) != scene.dimension
-    {
-        return Err(Failure::Input(format!("{} has {} dimensions, not {dimension}", arguments.file, scene.dimension)));
-    }
+    check_dimension(arguments, scene.dimension)?;
     let report = scene::report(&scene)?;
     if arguments.json { print_json(&report) } else { print(scene::as_text(&report)) }
+}
+
+fn check_dimension(arguments: &InspectArguments, dimension: usize) -> Result<(), Failure> {
+    match arguments.dimension {
+        Some(said) if usize::from(said) != dimension => {
+            Err(Failure::Input(format!("{} has {dimension} dimensions, not {said}", arguments.file)))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn with_dimension_hint(error: hyperbody_scene::SceneError) -> Failure {

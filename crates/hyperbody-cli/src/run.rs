@@ -1,5 +1,7 @@
 //! `hyperbody run`: a scene without a window.
 
+mod record;
+
 use std::time::Instant;
 
 use hyperbody_scene::{AnyWorld, BodyState, Planes, Scene};
@@ -7,10 +9,12 @@ use serde::Serialize;
 
 use crate::arguments::{MAX_STEPS, RunArguments};
 use crate::failure::Failure;
+use crate::files::Target;
 use crate::output::{labelled, metres, number, numbers, print, print_json, table};
 use crate::progress::Progress;
 use crate::source;
 use crate::step_times::StepTimes;
+use record::{Record, RecordingReport};
 
 /// Simulated seconds if nothing else is said.
 const DEFAULT_SECONDS: f64 = 10.0;
@@ -33,6 +37,8 @@ struct Report {
     quarantined: Vec<String>,
     hash: String,
     step_ms: StepTimes,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<RecordingReport>,
 }
 
 #[derive(Clone, Copy, Serialize)]
@@ -63,7 +69,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     let mut world = AnyWorld::new(&scene, usize::from(arguments.threads))?;
     let steps = steps(arguments, &scene)?;
-    let report = simulate(&scene, &mut world, steps);
+    let target = arguments.record.as_deref().map(|path| Target::anywhere("--record", path)).transpose()?;
+    let mut record = target.as_ref().map(|target| Record::begin(target, &scene, arguments.record_every)).transpose()?;
+    let mut report = simulate(&scene, &mut world, steps, record.as_mut())?;
+    report.recording = record.map(|record| record.finish(&world)).transpose()?;
     if !report.quarantined.is_empty() {
         let names = report.quarantined.join(", ");
         eprintln!("warning: taken out of the simulation because their state is no longer finite: {names}");
@@ -86,21 +95,32 @@ fn steps(arguments: &RunArguments, scene: &Scene) -> Result<u32, Failure> {
     Ok(steps as u32)
 }
 
-fn simulate(scene: &Scene, world: &mut AnyWorld, steps: u32) -> Report {
+fn simulate(
+    scene: &Scene,
+    world: &mut AnyWorld,
+    steps: u32,
+    mut record: Option<&mut Record<'_>>,
+) -> Result<Report, Failure> {
     let initial = energy(world);
     let mut seconds = Vec::with_capacity(steps as usize);
     let mut max_penetration: f64 = 0.0;
     let mut progress = Progress::new(&scene.name, u64::from(steps));
+    if let Some(record) = &mut record {
+        record.note(world)?;
+    }
     for _ in 0..steps {
         let start = Instant::now();
         world.step();
         seconds.push(start.elapsed().as_secs_f64());
         max_penetration = max_penetration.max(world.max_penetration());
+        if let Some(record) = &mut record {
+            record.note(world)?;
+        }
         progress.advance();
     }
     drop(progress);
     let final_max_penetration = world.measure_penetration();
-    Report {
+    Ok(Report {
         scene: scene.name.clone(),
         dimension: world.dimension(),
         steps,
@@ -118,7 +138,8 @@ fn simulate(scene: &Scene, world: &mut AnyWorld, steps: u32) -> Report {
         quarantined: world.quarantined().into_iter().map(str::to_owned).collect(),
         hash: format!("{:016x}", world.state_hash()),
         step_ms: StepTimes::from_seconds(&mut seconds),
-    }
+        recording: None,
+    })
 }
 
 fn energy(world: &AnyWorld) -> Energy {
@@ -182,5 +203,9 @@ fn totals(report: &Report) -> String {
     let [median, p95, max] = [ms.median, ms.p95, ms.max].map(|value| format!("{value:.3}"));
     lines.push(("time per step", format!("{median} ms median, {p95} ms p95, {max} ms at most")));
     lines.push(("state hash", report.hash.clone()));
+    if let Some(recording) = &report.recording {
+        let (frames, kilobytes) = (recording.frames, number((recording.bytes as f64 / 1e3).ceil()));
+        lines.push(("recording", format!("{}: {frames} frames, {kilobytes} kB", recording.file)));
+    }
     labelled(lines)
 }

@@ -41,15 +41,20 @@ impl<const N: usize> Rotation<N> {
     /// [`Rotation::ORTHOGONALITY_TOLERANCE`] or the determinant is negative.
     #[must_use]
     pub fn from_matrix(m: Matrix<N>) -> Option<Self> {
-        let defect = (m.transpose() * m - Matrix::IDENTITY).max_abs();
-        if !(m.is_finite() && defect <= Self::ORTHOGONALITY_TOLERANCE && m.determinant() > 0.0) {
-            return None;
-        }
-        let mut rotation = Self { m };
+        let mut rotation = Self::from_exact_matrix(m)?;
         for _ in 0..2 {
             rotation.reorthonormalize();
         }
         Some(rotation)
+    }
+
+    /// The rotation with the very bits of a matrix that was one before, as when a stored state is read back; `None` if RᵀR
+    /// differs from one by more than [`Rotation::ORTHOGONALITY_TOLERANCE`] or the determinant is negative.
+    #[must_use]
+    pub fn from_exact_matrix(m: Matrix<N>) -> Option<Self> {
+        let defect = (m.transpose() * m - Matrix::IDENTITY).max_abs();
+        let is_rotation = m.is_finite() && defect <= Self::ORTHOGONALITY_TOLERANCE && m.determinant() > 0.0;
+        is_rotation.then_some(Self { m })
     }
 
     /// The rotation nearest to a matrix in the sum of squares of the entries, however far away and of whatever scale: for

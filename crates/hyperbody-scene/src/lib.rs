@@ -12,12 +12,15 @@
 //! | `shape_file` | [`ShapeFile`]: a shape in a file of its own |
 //! | `dimension` | [`visit_dimension`]: the one `match` that turns a number into a type |
 //! | `gallery` | the built-in scenes |
+//! | `carry` | [`Scene::carry_files`]: a scene without the files beside it |
+//! | [`recording`] | simulations as files: write, replay |
 //! | `jitter` | [`Scene::jitter`]: another history of the same scene |
 //! | `error` | [`SceneError`] |
 //!
 //! The format is described in docs/scene-format.md.
 
 mod build;
+mod carry;
 mod dimension;
 mod error;
 mod gallery;
@@ -26,6 +29,7 @@ mod json;
 mod model;
 mod off;
 mod read;
+pub mod recording;
 mod shape_file;
 mod world;
 mod write;

@@ -11,7 +11,7 @@ use crate::build::ShapeBuilder;
 use crate::dimension::DIMENSIONS;
 use crate::error::SceneError;
 use crate::json::Json;
-use crate::model::{PolytopeSpec, ShapeSpec};
+use crate::model::{Beside, PolytopeSpec, ShapeSpec};
 use crate::off;
 use crate::read::{At, MAX_FILE_BYTES, Result, read_text, shape};
 
@@ -100,7 +100,7 @@ impl ShapeFile {
         Dim<N>: EvenAlgebra,
     {
         let folder = self.file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let shape = ShapeBuilder::new(Some(folder)).shape(&self.shape, "");
+        let shape = ShapeBuilder::new(Beside { carried: None, folder: Some(folder) }).shape(&self.shape, "");
         shape.map_err(|error| error.in_file(Some(&self.file)))
     }
 }

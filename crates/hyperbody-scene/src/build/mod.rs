@@ -13,7 +13,7 @@ use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, JointDef, Material, Vect
 use crate::error::{ErrorKind, SceneError, nearest};
 use crate::model::{Body, Joint, Scene};
 pub use shape::MAX_VERTICES;
-pub(crate) use shape::ShapeBuilder;
+pub(crate) use shape::{MAX_SHAPE_FILE_BYTES, ShapeBuilder, read_beside};
 
 pub(crate) type Result<T> = std::result::Result<T, SceneError>;
 
@@ -40,7 +40,7 @@ where
     };
     let mut world = World::new(def).map_err(|error| SceneError::value("", error.to_string()))?;
     let materials = materials(scene)?;
-    let mut shapes = ShapeBuilder::new(scene.folder());
+    let mut shapes = ShapeBuilder::new(scene.beside());
     let names = names(scene)?;
     let mut handles = Vec::with_capacity(scene.bodies.len());
     for (index, body) in scene.bodies.iter().enumerate() {

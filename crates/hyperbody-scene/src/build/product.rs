@@ -1,7 +1,5 @@
 //! Factors of products: shapes of as many dimensions as they have axes.
 
-use std::path::Path;
-
 use hyperbody::geometry::product::Factor;
 use hyperbody::math::{Dim, EvenAlgebra};
 
@@ -9,12 +7,12 @@ use super::shape::{ShapeBuilder, axis};
 use super::{Result, shape_error};
 use crate::dimension::{DimensionVisitor, visit_dimension};
 use crate::error::SceneError;
-use crate::model::{self, ShapeSpec};
+use crate::model::{self, Beside, ShapeSpec};
 
 /// The factor that stands at `path`, of a product in `N` dimensions.
 pub(super) fn factor<const N: usize>(
     factor: &model::Factor,
-    folder: Option<&Path>,
+    beside: Beside<'_>,
     path: &str,
     depth: usize,
 ) -> Result<Factor> {
@@ -25,7 +23,7 @@ pub(super) fn factor<const N: usize>(
     if let [only] = axes[..] {
         return segment(&factor.shape, only, path);
     }
-    let build = BuildFactor { spec: &factor.shape, axes: &axes, folder, path, depth };
+    let build = BuildFactor { spec: &factor.shape, axes: &axes, beside, path, depth };
     visit_dimension(axes.len(), build).unwrap_or_else(|| {
         let message = format!("names {} axes; a factor has 1 to {}, such as \"xw\"", axes.len(), N - 1);
         Err(SceneError::value(place, message))
@@ -49,7 +47,7 @@ fn segment(spec: &ShapeSpec, axis: usize, path: &str) -> Result<Factor> {
 struct BuildFactor<'a> {
     spec: &'a ShapeSpec,
     axes: &'a [usize],
-    folder: Option<&'a Path>,
+    beside: Beside<'a>,
     path: &'a str,
     depth: usize,
 }
@@ -62,7 +60,7 @@ impl DimensionVisitor for BuildFactor<'_> {
         Dim<K>: EvenAlgebra,
     {
         let place = format!("{}.shape", self.path);
-        let shape = ShapeBuilder::<K>::new(self.folder).shape_at_depth(self.spec, &place, self.depth + 1)?;
+        let shape = ShapeBuilder::<K>::new(self.beside).shape_at_depth(self.spec, &place, self.depth + 1)?;
         let axes: [usize; K] = std::array::from_fn(|i| self.axes[i]);
         Factor::new(axes, &shape).map_err(|error| shape_error(&place, &error))
     }

@@ -12,7 +12,7 @@ use hyperbody::prelude::{Polytope, Pose, Shape};
 
 use super::{Result, product, rotation, shape_error, vector, vector_or_zero};
 use crate::error::{ErrorKind, SceneError};
-use crate::model::{PolytopeSpec, ShapeSpec, Size};
+use crate::model::{Beside, PolytopeSpec, ShapeSpec, Size};
 use crate::off;
 use crate::read::{join, read_text};
 
@@ -23,11 +23,11 @@ pub const MAX_VERTICES: usize = 10_000;
 const MAX_DEPTH: usize = 8;
 
 /// Largest size of a shape file, bytes.
-const MAX_SHAPE_FILE_BYTES: u64 = 16 << 20;
+pub(crate) const MAX_SHAPE_FILE_BYTES: u64 = 16 << 20;
 
 /// Makes the shapes of one scene.
 pub(crate) struct ShapeBuilder<'a, const N: usize> {
-    folder: Option<&'a Path>,
+    beside: Beside<'a>,
     /// Regular polytopes and files that were made already, by what the scene says of them: hundreds of equal dice share
     /// one polytope.
     made: BTreeMap<String, Arc<Polytope<N>>>,
@@ -37,9 +37,9 @@ impl<'a, const N: usize> ShapeBuilder<'a, N>
 where
     Dim<N>: EvenAlgebra,
 {
-    /// A builder that looks for files in `folder`.
-    pub(crate) fn new(folder: Option<&'a Path>) -> Self {
-        Self { folder, made: BTreeMap::new() }
+    /// A builder that takes files from there.
+    pub(crate) fn new(beside: Beside<'a>) -> Self {
+        Self { beside, made: BTreeMap::new() }
     }
 
     /// The shape that stands at `path` in the scene.
@@ -82,7 +82,7 @@ where
             }
             ShapeSpec::Mesh { file } => {
                 let place = format!("{path}.file");
-                let cells = off::cells(&read_beside(self.folder, file, &place)?, &place)?;
+                let cells = off::cells(&read_beside(self.beside, file, &place)?, &place)?;
                 let parts: geometry::Result<Vec<_>> =
                     cells.into_iter().map(|cell| Ok((Pose::IDENTITY, Shape::polytope(Arc::new(cell))?))).collect();
                 parts.and_then(Shape::compound).map_err(refuse(&place))
@@ -92,7 +92,7 @@ where
                     .iter()
                     .enumerate()
                     .map(|(index, factor)| {
-                        product::factor::<N>(factor, self.folder, &format!("{path}.factors[{index}]"), depth)
+                        product::factor::<N>(factor, self.beside, &format!("{path}.factors[{index}]"), depth)
                     })
                     .collect();
                 Shape::product(made?).map_err(refuse(&path))
@@ -124,7 +124,7 @@ where
             PolytopeSpec::Regular { name, size } => regular(name, *size, path)?,
             PolytopeSpec::File(file) => {
                 let place = format!("{path}.file");
-                off::polytope(&read_beside(self.folder, file, &place)?, &place)?
+                off::polytope(&read_beside(self.beside, file, &place)?, &place)?
             }
             PolytopeSpec::Vertices(vertices) => hull(vertices, path)?,
         };
@@ -162,14 +162,18 @@ fn regular<const N: usize>(name: &str, size: Size, path: &str) -> Result<Polytop
     regular.polytope(size).map_err(|error| shape_error(path, &error))
 }
 
-/// The text of the file `name`, which has to lie in `folder` or below it: a scene from elsewhere reads nothing else.
-fn read_beside(folder: Option<&Path>, name: &str, path: &str) -> Result<String> {
+/// The text of the file `name`, which is carried along or has to lie in the folder or below it: a scene from elsewhere reads
+/// nothing else.
+pub(crate) fn read_beside(beside: Beside<'_>, name: &str, path: &str) -> Result<String> {
+    if let Some(text) = beside.carried.and_then(|files| files.get(name)) {
+        return Ok(text.clone());
+    }
     let refuse = |message: String| Err(SceneError::new(ErrorKind::File, path, message));
     let relative = Path::new(name);
     if name.is_empty() || !relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
         return refuse(format!("\"{name}\" is not the name of a file beside the scene, such as \"shape.off\""));
     }
-    let Some(folder) = folder else {
+    let Some(folder) = beside.folder else {
         return refuse(format!("names the file \"{name}\", but the scene lies in no folder; save it as a file first"));
     };
     read_text(&folder.join(relative), MAX_SHAPE_FILE_BYTES)

@@ -7,5 +7,6 @@ mod shape;
 
 pub use body::{Body, BodyKind, Joint};
 pub use rotation::{Angle, RotationSpec, Turn};
+pub(crate) use scene::Beside;
 pub use scene::{DEFAULT_DT, DEFAULT_SUBSTEPS, NamedMaterial, Scene, default_gravity};
 pub use shape::{Factor, Part, PolytopeSpec, ShapeSpec, Size};

@@ -1,6 +1,6 @@
 //! The scene: a world's settings, its bodies and its joints.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use hyperbody::prelude::Material;
@@ -45,6 +45,18 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// The file that the scene was read from, if any: what messages name, and beside which other files are looked for.
     pub file: Option<PathBuf>,
+    /// Texts of files that the scene names, by name: they are taken from here before they are looked for on the disk. Empty
+    /// for scenes from files; [`Scene::carry_files`] fills it.
+    pub files: BTreeMap<String, String>,
+}
+
+/// Where the texts of the files that a scene names come from.
+#[derive(Clone, Copy)]
+pub(crate) struct Beside<'a> {
+    /// Carried along, by name.
+    pub(crate) carried: Option<&'a BTreeMap<String, String>>,
+    /// The folder in which the others are looked for.
+    pub(crate) folder: Option<&'a Path>,
 }
 
 /// A material and its name.
@@ -72,6 +84,7 @@ impl Scene {
             bodies: Vec::new(),
             joints: Vec::new(),
             file: None,
+            files: BTreeMap::new(),
         }
     }
 
@@ -92,9 +105,10 @@ impl Scene {
         self.bodies.iter().enumerate().map(name).collect()
     }
 
-    /// The folder in which the files that the scene names are looked for.
-    pub(crate) fn folder(&self) -> Option<&Path> {
-        let parent = self.file.as_deref()?.parent()?;
-        Some(if parent.as_os_str().is_empty() { Path::new(".") } else { parent })
+    /// Where the files that the scene names come from.
+    pub(crate) fn beside(&self) -> Beside<'_> {
+        let folder = self.file.as_deref().and_then(Path::parent);
+        let folder = folder.map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+        Beside { carried: Some(&self.files), folder }
     }
 }
