@@ -109,17 +109,14 @@ impl Target {
         Failure::Input(format!("{}: cannot be written: {error}", self.path.display()))
     }
 
+    /// The name that the file gets.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The name, for messages.
     pub(crate) fn display(&self) -> impl Display {
         self.path.display()
-    }
-
-    /// The same target with another ending.
-    ///
-    /// # Errors
-    /// As [`Target::new`].
-    pub(crate) fn with_ending(&self, option: &str, extension: &'static str) -> Result<Self, Failure> {
-        Self::new(option, &self.path.with_extension(extension), &[extension])
     }
 
     /// Devices and pipes are written to; a file in their place would not be what was meant.

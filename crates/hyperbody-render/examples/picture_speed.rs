@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use hyperbody::math::{Dim, EvenAlgebra};
-use hyperbody_render::{Settings, Slice, frame_bodies, render};
+use hyperbody_render::{Bodies, Settings, Slice, frame_bodies, render};
 use hyperbody_scene::{AnyWorld, DimensionVisitor, Scene, built_in, visit_dimension};
 
 /// Pictures of each size; the fastest counts, for others only waited longer.
@@ -23,14 +23,15 @@ impl DimensionVisitor for Time<'_> {
     {
         let world = self.0.get::<N>().ok_or("the world has another dimension")?;
         let slice = Slice::natural();
-        let camera = frame_bodies(world, &slice, 16.0 / 9.0);
+        let bodies = Bodies::of(world);
+        let camera = frame_bodies(&bodies, &slice, 16.0 / 9.0);
         for (width, height) in [(1280, 720), (640, 360)] {
             for threads in [1, 2] {
                 let settings = Settings { width, height, threads, ..Settings::default() };
                 let mut fastest = f64::INFINITY;
                 for _ in 0..ROUNDS {
                     let start = Instant::now();
-                    render(world, &slice, Some(&camera), &settings, &|_| ())?;
+                    render(&bodies, &slice, Some(&camera), &settings, &|_| ())?;
                     fastest = fastest.min(start.elapsed().as_secs_f64());
                 }
                 println!("{width} × {height}, {threads} threads: {fastest:.3} s");

@@ -25,12 +25,12 @@ impl Error for RenderError {}
 
 impl From<png::EncodingError> for RenderError {
     fn from(error: png::EncodingError) -> Self {
-        Self::new(format!("the picture cannot be written: {error}"))
+        Self::new(error.to_string())
     }
 }
 
 impl From<gif::EncodingError> for RenderError {
     fn from(error: gif::EncodingError) -> Self {
-        Self::new(format!("the film cannot be written: {error}"))
+        Self::new(error.to_string())
     }
 }

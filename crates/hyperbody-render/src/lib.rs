@@ -7,7 +7,9 @@
 //! | module | holds |
 //! |---|---|
 //! | [`slice`](mod@slice) | [`Slice`]: which three directions of the world are seen |
+//! | [`bodies`] | [`Bodies`]: what there is, and where it is |
 //! | [`camera`] | [`Camera`]: where the eye is in the slice |
+//! | [`framing`] | [`frame_bodies`], [`frame_all`]: cameras that have everything in view |
 //! | [`picture`] | [`render`], [`Settings`] |
 //! | [`image`] | [`Image`]: the finished picture, and PNG |
 //! | [`film`] | [`Film`]: GIF and animated PNG |
@@ -17,11 +19,13 @@
 //! | `colour` | palette and tone mapping |
 //! | `overlay`, `text` | the strip of hidden directions, and captions |
 
+pub mod bodies;
 pub mod camera;
 mod colour;
 pub mod error;
 pub mod film;
 mod frame;
+pub mod framing;
 pub mod image;
 mod light;
 mod occlusion;
@@ -33,9 +37,11 @@ mod stage;
 mod surface;
 mod text;
 
+pub use bodies::Bodies;
 pub use camera::Camera;
 pub use error::RenderError;
 pub use film::{Film, FilmFormat};
+pub use framing::{frame_all, frame_bodies};
 pub use image::Image;
-pub use picture::{Settings, frame_bodies, render};
+pub use picture::{Settings, render};
 pub use slice::Slice;

@@ -1,6 +1,7 @@
 //! What is written on a picture: the caption, and the strip that shows where every body is along the hidden directions.
 
 use hyperbody::math::planes::AXIS_NAMES;
+use hyperbody::math::scalar;
 
 use crate::colour::{self, Encoder};
 use crate::image::Image;
@@ -17,10 +18,12 @@ pub(crate) fn draw<const N: usize>(image: &mut Image, stage: &Stage<N>, settings
             strip(image, stage, hidden, unit);
         }
     }
-    let line = 26.0 * unit;
+    // Letters shrink less than pictures do, or nobody could read them.
+    let letter = scalar::pow(f64::from(unit), 0.6) as f32;
+    let line = 26.0 * letter;
     let mut y = image.height() as f32 - 24.0 * unit - line * (settings.caption.len().saturating_sub(1)) as f32;
     for (index, caption) in settings.caption.iter().enumerate() {
-        let height = if index == 0 { 22.0 } else { 18.0 } * unit;
+        let height = if index == 0 { 22.0 } else { 18.0 } * letter;
         text::draw(image, caption, (24.0 * unit, y), height, INK, 0.85);
         y += line;
     }

@@ -2,16 +2,15 @@
 
 use std::f64::consts::PI;
 
-use hyperbody::math::{Vector, scalar};
-use hyperbody::prelude::{BodyKind, World};
-
+use crate::bodies::Bodies;
 use crate::camera::{Camera, Lens};
 use crate::error::RenderError;
 use crate::frame::Frame;
+use crate::framing::frame_bodies;
 use crate::image::Image;
 use crate::light::Light;
 use crate::slice::Slice;
-use crate::stage::{BodyLook, GHOST_REACH, Stage};
+use crate::stage::Stage;
 
 /// How a picture is made. `..Settings::default()` fills in the rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,13 +72,13 @@ impl Settings {
     }
 }
 
-/// A picture of a slice of a world. Without a camera, one is chosen by [`frame_bodies`]. `progress` is told that so many
-/// more rows are done, of three times the height.
+/// A picture of a slice of a world with these bodies. Without a camera, one is chosen by [`frame_bodies`]. `progress` is told
+/// that so many more rows are done, of three times the height.
 ///
 /// # Errors
 /// If a setting is outside its range, the camera is not finite, or the threads cannot be started.
 pub fn render<const N: usize>(
-    world: &World<N>,
+    bodies: &Bodies<N>,
     slice: &Slice<N>,
     camera: Option<&Camera>,
     settings: &Settings,
@@ -88,9 +87,9 @@ pub fn render<const N: usize>(
     settings.validate()?;
     let camera = camera
         .copied()
-        .unwrap_or_else(|| frame_bodies(world, slice, f64::from(settings.width) / f64::from(settings.height)));
+        .unwrap_or_else(|| frame_bodies(bodies, slice, f64::from(settings.width) / f64::from(settings.height)));
     check(&camera)?;
-    let stage = Stage::new(world, slice);
+    let stage = Stage::new(bodies, slice);
     let lens = Lens::new(&camera, settings.width, settings.height);
     let frame = Frame {
         stage: &stage,
@@ -125,38 +124,4 @@ fn check(camera: &Camera) -> Result<(), RenderError> {
         )));
     }
     Ok(())
-}
-
-/// A camera that has the moving bodies in view that the slice cuts or nearly cuts, or all of them if there are none, but for
-/// the few that flew far away. `aspect` is width over height.
-#[must_use]
-pub fn frame_bodies<const N: usize>(world: &World<N>, slice: &Slice<N>, aspect: f64) -> Camera {
-    let stage = Stage::new(world, slice);
-    let moving = |look: &&BodyLook| look.kind == BodyKind::Dynamic;
-    let is_shown = |look: &&BodyLook| look.gap().is_some_and(|gap| gap <= GHOST_REACH * stage.size);
-    let solid = |look: &&BodyLook| look.hidden_extents.is_some();
-    let choices: [Vec<&BodyLook>; 3] = [
-        stage.bodies.iter().filter(moving).filter(is_shown).collect(),
-        stage.bodies.iter().filter(moving).collect(),
-        stage.bodies.iter().filter(solid).collect(),
-    ];
-    let chosen = choices.into_iter().find(|looks| !looks.is_empty()).unwrap_or_default();
-    let middles: Vec<Vector<3>> = chosen.iter().map(|look| look.seen_middle()).collect();
-    let largest = chosen.iter().map(|look| look.radius).fold(0.0, f64::max);
-    let target = Vector::from_fn(|axis| {
-        let mut along: Vec<f64> = middles.iter().map(|middle| middle[axis]).collect();
-        along.sort_unstable_by(f64::total_cmp);
-        // Half-way between the outer twentieths: those beyond do not pull.
-        let trim = along.len() / 20;
-        if along.is_empty() { 0.0 } else { 0.5 * (along[trim] + along[along.len() - 1 - trim]) }
-    });
-    let mut away: Vec<f64> = middles.iter().map(|middle| middle.distance(target)).collect();
-    away.sort_unstable_by(f64::total_cmp);
-    let radius = away.get(away.len().saturating_sub(1) * 19 / 20).map_or(2.0, |away| away + 0.8 * largest);
-    // A flat world is seen from the front.
-    let (azimuth, elevation) = if N == 2 { (0.12, 0.16) } else { (0.6, 0.3) };
-    let mut camera = Camera::around(target, stage.up, 1.0, azimuth, elevation);
-    let half_angle = scalar::sin(0.5 * camera.field_of_view) * aspect.min(1.0);
-    camera.eye = target + (camera.eye - target) * (radius / half_angle);
-    camera
 }

@@ -5,8 +5,9 @@ use hyperbody::collision::{DynamicTree, RayStack};
 use hyperbody::geometry::Aabb;
 use hyperbody::geometry::shape::Piece;
 use hyperbody::math::{Pose, Vector};
-use hyperbody::prelude::{BodyKind, World};
+use hyperbody::prelude::BodyKind;
 
+use crate::bodies::Bodies;
 use crate::slice::Slice;
 use crate::solid::{self, Solid};
 
@@ -129,8 +130,8 @@ impl<const N: usize> Solids<N> {
 }
 
 impl<const N: usize> Stage<N> {
-    pub(crate) fn new(world: &World<N>, slice: &Slice<N>) -> Self {
-        let against_gravity = slice.pose().rotation.inverse_rotate(-world.gravity());
+    pub(crate) fn new(bodies: &Bodies<N>, slice: &Slice<N>) -> Self {
+        let against_gravity = slice.pose().rotation.inverse_rotate(-bodies.gravity);
         let mut stage = Self {
             cut: Solids::new(),
             ghosts: Solids::new(),
@@ -143,25 +144,25 @@ impl<const N: usize> Stage<N> {
         };
         let mut sizes = Vec::new();
         let mut numbers = [0_u32; 2];
-        for (_, body) in world.bodies() {
-            let number = &mut numbers[usize::from(body.kind() == BodyKind::Dynamic)];
-            let body_from_slice = body.pose().relative(slice.pose());
+        for body in &bodies.all {
+            let number = &mut numbers[usize::from(body.kind == BodyKind::Dynamic)];
+            let body_from_slice = body.pose.relative(slice.pose());
             let mut look = BodyLook {
-                kind: body.kind(),
+                kind: body.kind,
                 number: *number,
                 is_cut: false,
                 hidden_extents: None,
-                middle: slice.coordinates(body.centre_of_mass()).iter().collect(),
+                middle: slice.coordinates(body.centre()).iter().collect(),
                 radius: 0.0,
             };
             let mut is_solid = false;
-            for (part, (body_from_piece, piece)) in body.shape().pieces().into_iter().enumerate() {
+            for (part, (body_from_piece, piece)) in body.shape.pieces().into_iter().enumerate() {
                 let piece_from_slice = body_from_piece.inverse() * body_from_slice;
                 match &piece {
                     Piece::HalfSpace { normal, offset } => stage.add_plane(*normal, *offset, &piece_from_slice),
                     Piece::Convex(convex) => {
                         is_solid = true;
-                        if body.kind() == BodyKind::Dynamic {
+                        if body.kind == BodyKind::Dynamic {
                             sizes.push(convex.bounding_radius());
                         }
                         look.radius = look.radius.max(body_from_piece.translation.norm() + convex.bounding_radius());
@@ -178,7 +179,7 @@ impl<const N: usize> Stage<N> {
         sizes.sort_unstable_by(f64::total_cmp);
         stage.size = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
         stage.measure();
-        stage.add_ghosts(world, slice);
+        stage.add_ghosts(bodies, slice);
         stage.cut.tree.rebuild();
         stage.ghosts.tree.rebuild();
         stage
@@ -219,16 +220,16 @@ impl<const N: usize> Stage<N> {
     }
 
     /// Bodies that the slice does not cut, seen as if it went through their middles.
-    fn add_ghosts(&mut self, world: &World<N>, slice: &Slice<N>) {
-        for (index, (_, body)) in world.bodies().enumerate() {
+    fn add_ghosts(&mut self, bodies: &Bodies<N>, slice: &Slice<N>) {
+        for (index, body) in bodies.all.iter().enumerate() {
             let look = &self.bodies[index];
             if look.is_cut || look.gap().is_none_or(|gap| gap > GHOST_REACH * self.size) {
                 continue;
             }
             let hidden = Vector::from_fn(|i| if i < Slice::<N>::SEEN { 0.0 } else { look.middle[i] });
             let through_middle = Pose::new(slice.pose().rotation, slice.pose().transform_point(hidden));
-            let body_from_slice = body.pose().relative(&through_middle);
-            for (part, (body_from_piece, piece)) in body.shape().pieces().into_iter().enumerate() {
+            let body_from_slice = body.pose.relative(&through_middle);
+            for (part, (body_from_piece, piece)) in body.shape.pieces().into_iter().enumerate() {
                 let piece_from_slice = body_from_piece.inverse() * body_from_slice;
                 let Piece::Convex(convex) = &piece else { continue };
                 if let Some(bounds) = solid::section_bounds(convex, &piece_from_slice) {

@@ -81,12 +81,15 @@ impl Report {
     }
 
     pub(super) fn as_text(&self) -> String {
-        let mut text = format!("{}: a recording of {} dimensions, sound to the last byte\n", self.scene, self.dimension);
+        let mut text =
+            format!("{}: a recording of {} dimensions, sound to the last byte\n", self.scene, self.dimension);
         if !self.description.is_empty() {
             text += &format!("{}\n", self.description);
         }
-        let mut lines =
-            vec![("bodies", format!("{}, and {} joints", self.bodies, self.joints)), ("frames", self.frames.to_string())];
+        let mut lines = vec![
+            ("bodies", format!("{}, and {} joints", self.bodies, self.joints)),
+            ("frames", self.frames.to_string()),
+        ];
         for (label, moment) in [("from", &self.first), ("to", &self.last)] {
             if let Some(moment) = moment {
                 let mut line = format!("{} s, step {}", number(moment.time), moment.step);

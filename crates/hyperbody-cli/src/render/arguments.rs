@@ -9,37 +9,57 @@ use hyperbody_render::picture::MAX_SIDE;
 use crate::arguments::seconds;
 
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  \
+#[command(after_help = "Pictures:\n  \
     hyperbody render dice4d -o dice.png                      three seconds into the scene, cut at w = 0\n  \
     hyperbody render dice4d -o dice.png --at 1 --slice w=0.5 another moment, another slice\n  \
     hyperbody render pit4d -o turned.png --turn xw=30        a slice turned by 30° from x towards w\n  \
-    hyperbody render pyramid3d -o front.png --camera 0,10    seen from the front, 10° from above\n  \
-    hyperbody render dice4d -o dice.gif --at 0 --seconds 3 --width 480 --height 270\n  \
-    hyperbody render pit4d -o through.gif --at 3 --seconds 4 --slice w=-2 --slice-to w=2\n\n\
+    hyperbody render pyramid3d -o front.png --camera 0,10    seen from the front, 10° from above\n\n\
+    Films, by their ending (.mp4 is made by the program ffmpeg, if it is installed):\n  \
+    hyperbody render dice4d -o dice.gif                      the first four seconds\n  \
+    hyperbody render dice4d -o slow.apng --speed 0.25        at a quarter of the speed\n  \
+    hyperbody render pit4d -o through.mp4 --at 3 --speed 0 --slice w=-2 --slice-to w=2\n  \
+    hyperbody render pit4d -o turning.gif --at 3 --speed 0 --turn-to xw=360\n\n\
+    Sheets, of pictures that differ in one thing:\n  \
+    hyperbody render dice4d -o places.png --sheet w=-1..1,9  the same moment, nine places along w\n  \
+    hyperbody render dice4d -o moments.png --sheet t=0..4,6  six moments\n  \
+    hyperbody render dice4d -o turns.png --sheet xw=0..90,4  four turns of the slice\n\n\
+    A long simulation is computed once and shown many times:\n  \
+    hyperbody run pit4d --seconds 60 --record pit.hbrec\n  \
+    hyperbody render pit.hbrec -o end.png --at 60\n\n\
     In four and more dimensions a picture shows a three-dimensional slice. Bodies beside it appear as glass, blue on the \
     positive side of w and orange on the negative; the strip on the right shows where every body is along w, and the slice \
     as a line.")]
 pub(crate) struct RenderArguments {
-    /// A scene file or the name of a built-in scene
+    /// A scene file, the name of a built-in scene, or a recording
     pub(crate) scene: String,
-    /// Where to: a .png file for a picture, .gif or .apng for a film
+    /// Where to: a .png file for a picture or a sheet; .gif, .apng or .mp4 for a film
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// The moment to show, in simulated seconds
-    #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds, allow_hyphen_values = true)]
-    pub(crate) at: f64,
-    /// Length of a film that begins at that moment, in simulated seconds
-    #[arg(long, value_name = "S", default_value_t = 4.0, value_parser = seconds, allow_hyphen_values = true)]
-    pub(crate) seconds: f64,
-    /// Pictures per second of a film
-    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(1..=50))]
-    pub(crate) frame_rate: u16,
-    /// Pixels across
-    #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(16..=i64::from(MAX_SIDE)))]
-    pub(crate) width: u32,
-    /// Pixels down
-    #[arg(long, value_name = "PIXELS", default_value_t = 720, value_parser = clap::value_parser!(u32).range(16..=i64::from(MAX_SIDE)))]
-    pub(crate) height: u32,
+    /// The moment to show, in simulated seconds; of a film, the first one [default: 3 for pictures, 0 for films]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
+    pub(crate) at: Option<f64>,
+    /// How long a film plays, in seconds [default: 4, or what is left of a recording]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
+    pub(crate) seconds: Option<f64>,
+    /// Simulated seconds per second of a film: 0.25 is slow motion, at 0 time stands still [default: 1]
+    #[arg(long, value_name = "FACTOR", value_parser = speed, allow_hyphen_values = true)]
+    pub(crate) speed: Option<f64>,
+    /// Pictures per second of a film, at most 50 for a GIF [default: 25]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=60))]
+    pub(crate) frame_rate: Option<u16>,
+    /// A sheet of COUNT pictures in which an axis (w=-1..1), a turn (xw=0..90) or the time (t=0..4) goes from one value to
+    /// another
+    #[arg(long, value_name = "w=FROM..TO,COUNT", value_parser = sheet_axis, allow_hyphen_values = true)]
+    pub(crate) sheet: Option<SheetAxis>,
+    /// Pictures in a row of a sheet [default: about as many as rows]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(crate) columns: Option<u32>,
+    /// Pixels across [default: 1280; 640 for films, 480 for each picture of a sheet]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=i64::from(MAX_SIDE)))]
+    pub(crate) width: Option<u32>,
+    /// Pixels down [default: 9/16 of those across]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=i64::from(MAX_SIDE)))]
+    pub(crate) height: Option<u32>,
     /// A point that the slice goes through, by axes, in metres; axes left out are 0
     #[arg(long, value_name = "w=0.5,…", value_parser = assignments, allow_hyphen_values = true)]
     pub(crate) slice: Option<Assignments>,
@@ -49,6 +69,9 @@ pub(crate) struct RenderArguments {
     /// Turns of the slice by planes, in degrees, one after the other
     #[arg(long, value_name = "xw=30,…", value_parser = assignments, allow_hyphen_values = true)]
     pub(crate) turn: Option<Assignments>,
+    /// How far the slice is turned at the end of a film; it turns evenly
+    #[arg(long, value_name = "xw=90,…", value_parser = assignments, allow_hyphen_values = true)]
+    pub(crate) turn_to: Option<Assignments>,
     /// Where the eye is: degrees around the vertical, degrees above the horizon, and if wanted the distance in metres
     #[arg(long, value_name = "AROUND,ABOVE[,DISTANCE]", value_parser = numbers, allow_hyphen_values = true)]
     pub(crate) camera: Option<Numbers>,
@@ -82,6 +105,56 @@ pub(crate) struct Assignments(pub(crate) Vec<(String, f64)>);
 /// Numbers with commas between them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
+
+/// What differs between the pictures of a sheet, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SheetAxis {
+    /// An axis, a plane, or t.
+    pub(crate) name: String,
+    from: f64,
+    to: f64,
+    count: u32,
+}
+
+/// Most pictures of a sheet.
+const MAX_PICTURES: u32 = 64;
+
+/// Pictures of a sheet if no number is said.
+const DEFAULT_PICTURES: u32 = 9;
+
+impl SheetAxis {
+    /// Whether it is the moment that differs.
+    pub(crate) fn is_time(&self) -> bool {
+        self.name == "t"
+    }
+
+    /// The value for each picture: evenly from the first to the last.
+    pub(crate) fn values(&self) -> Vec<f64> {
+        let share = |index: u32| f64::from(index) / f64::from(self.count.max(2) - 1);
+        (0..self.count).map(|index| self.from * (1.0 - share(index)) + self.to * share(index)).collect()
+    }
+}
+
+fn sheet_axis(text: &str) -> Result<SheetAxis, String> {
+    let form = || format!("\"{text}\" is not of the form NAME=FROM..TO,COUNT, such as w=-1..1,9");
+    let (name, range) = text.split_once('=').ok_or_else(form)?;
+    let (range, count) = match range.split_once(',') {
+        Some((range, count)) => (range, count.trim().parse().map_err(|_| form())?),
+        None => (range, DEFAULT_PICTURES),
+    };
+    let (from, to) = range.split_once("..").ok_or_else(form)?;
+    if !(2..=MAX_PICTURES).contains(&count) {
+        return Err(format!("a sheet has 2 to {MAX_PICTURES} pictures, not {count}"));
+    }
+    Ok(SheetAxis { name: name.trim().to_owned(), from: finite(from)?, to: finite(to)?, count })
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    match finite(text)? {
+        value if (0.0..=1000.0).contains(&value) => Ok(value),
+        value => Err(format!("{value} is not a speed from 0 (time stands still) to 1000")),
+    }
+}
 
 fn finite(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {

@@ -7,7 +7,7 @@ use hyperbody::geometry::section::{SectionPolytope, SliceFrame};
 use hyperbody::geometry::{Polytope, regular};
 use hyperbody::math::{Bivector, Pose, Rotation, Vector};
 use hyperbody::prelude::{BodyDef, Shape, World, WorldDef};
-use hyperbody_render::{Settings, Slice, frame_bodies, render};
+use hyperbody_render::{Bodies, Settings, Slice, frame_bodies, render};
 
 /// A rotation in every plane, by the same rule in every dimension.
 fn turned<const N: usize>(scale: f64) -> Rotation<N> {
@@ -123,11 +123,11 @@ fn heap<const N: usize>() -> World<N> {
 fn same_bytes<const N: usize>() {
     let world = heap::<N>();
     let slice = Slice::<N>::natural();
-    let camera = frame_bodies(&world, &slice, 1.5);
+    let camera = frame_bodies(&Bodies::of(&world), &slice, 1.5);
     let draw = |threads| {
         let settings =
             Settings { width: 150, height: 100, caption: vec!["t = 0.5 s".to_owned()], threads, ..Settings::default() };
-        render(&world, &slice, Some(&camera), &settings, &|_| ()).unwrap()
+        render(&Bodies::of(&world), &slice, Some(&camera), &settings, &|_| ()).unwrap()
     };
     let one = draw(1);
     assert_eq!(one, draw(2), "threads change nothing");
@@ -149,7 +149,8 @@ fn the_same_bytes_with_any_number_of_threads() {
 fn bad_settings_are_refused() {
     let world = heap::<4>();
     let refused = |settings: Settings, word: &str| {
-        let error = render(&world, &Slice::natural(), None, &settings, &|_| ()).expect_err(word).to_string();
+        let error =
+            render(&Bodies::of(&world), &Slice::natural(), None, &settings, &|_| ()).expect_err(word).to_string();
         assert!(error.contains(word), "{error}");
     };
     refused(Settings { width: 0, ..settings() }, "width");
@@ -160,9 +161,9 @@ fn bad_settings_are_refused() {
     for field_of_view in [0.0, 4.0, f64::NAN] {
         let mut camera = far_camera();
         camera.field_of_view = field_of_view;
-        assert!(render(&world, &Slice::natural(), Some(&camera), &settings(), &|_| ()).is_err());
+        assert!(render(&Bodies::of(&world), &Slice::natural(), Some(&camera), &settings(), &|_| ()).is_err());
     }
     let mut camera = far_camera();
     camera.eye = camera.target;
-    assert!(render(&world, &Slice::natural(), Some(&camera), &settings(), &|_| ()).is_err());
+    assert!(render(&Bodies::of(&world), &Slice::natural(), Some(&camera), &settings(), &|_| ()).is_err());
 }

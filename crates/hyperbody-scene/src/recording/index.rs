@@ -47,9 +47,8 @@ impl Index {
             });
         }
         cursor.finish()?;
-        let ascending = |a: &Entry, b: &Entry| {
-            a.offset < b.offset && a.first_frame < b.first_frame && a.last_step < b.first_step
-        };
+        let ascending =
+            |a: &Entry, b: &Entry| a.offset < b.offset && a.first_frame < b.first_frame && a.last_step < b.first_step;
         let sound = entries.windows(2).all(|pair| ascending(&pair[0], &pair[1]))
             && entries.iter().all(|entry| entry.first_step <= entry.last_step && entry.offset < offset)
             && entries.first().is_none_or(|entry| entry.first_frame == 0)

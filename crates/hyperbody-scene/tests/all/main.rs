@@ -3,5 +3,6 @@
 mod gallery;
 mod gallery_sentences;
 mod hostile_text;
+mod recording;
 mod round_trip;
 mod shapes_rest;

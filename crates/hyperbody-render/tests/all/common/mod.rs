@@ -3,7 +3,7 @@
 
 use hyperbody::math::{Pose, Vector};
 use hyperbody::prelude::{BodyDef, Shape, World, WorldDef};
-use hyperbody_render::{Camera, Image, Settings, Slice, render};
+use hyperbody_render::{Bodies, Camera, Image, Settings, Slice, render};
 
 /// Pixels across and down.
 pub const SIDE: u32 = 200;
@@ -45,7 +45,7 @@ pub const PIXEL: f64 = 4.0 / SIDE as f64;
 /// For each pixel whether the body covers it.
 pub fn covered<const N: usize>(world: &World<N>, slice: &Slice<N>) -> Vec<bool> {
     let empty = World::<N>::new(WorldDef { gravity: Vector::ZERO, ..WorldDef::default() }).unwrap();
-    let draw = |world: &World<N>| render(world, slice, Some(&far_camera()), &settings(), &|_| ()).unwrap();
+    let draw = |world: &World<N>| render(&Bodies::of(world), slice, Some(&far_camera()), &settings(), &|_| ()).unwrap();
     let (with, without): (Image, Image) = (draw(world), draw(&empty));
     with.bytes().chunks(3).zip(without.bytes().chunks(3)).map(|(a, b)| a != b).collect()
 }

@@ -1,0 +1,115 @@
+//! MP4 by way of the program ffmpeg, which is given the pictures as they are drawn.
+
+use std::io::{Read, Write};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::thread::JoinHandle;
+
+use hyperbody_render::Image;
+
+use crate::failure::Failure;
+use crate::files::Target;
+
+/// Most that is kept of what ffmpeg complains of, bytes.
+const MAX_COMPLAINT: u64 = 4096;
+
+/// Whether there is an ffmpeg that starts.
+pub(super) fn is_there() -> bool {
+    let quiet =
+        |command: &mut Command| command.stdin(Stdio::null()).output().is_ok_and(|output| output.status.success());
+    quiet(Command::new("ffmpeg").arg("-version"))
+}
+
+/// A film that ffmpeg is making.
+pub(super) struct Mp4<'a> {
+    target: &'a Target,
+    child: Child,
+    pictures: Option<ChildStdin>,
+    complaint: Option<JoinHandle<String>>,
+    finished: bool,
+}
+
+impl<'a> Mp4<'a> {
+    /// Starts ffmpeg. It writes aside, and the film gets its name at the end.
+    pub(super) fn new(target: &'a Target, (width, height): (u32, u32), rate: u16) -> Result<Self, Failure> {
+        let mut command = Command::new("ffmpeg");
+        command.args(["-hide_banner", "-loglevel", "error", "-nostdin", "-y"]);
+        command.args(["-f", "rawvideo", "-pixel_format", "rgb24"]);
+        command.args(["-video_size", &format!("{width}x{height}"), "-framerate", &rate.to_string(), "-i", "pipe:0"]);
+        // H.264 in 4:2:0 is what every player shows; the colours are said to be those of BT.709, and converted so.
+        command.args(["-vf", "scale=out_color_matrix=bt709:out_range=tv", "-pix_fmt", "yuv420p"]);
+        command.args([
+            "-color_primaries",
+            "bt709",
+            "-color_trc",
+            "bt709",
+            "-colorspace",
+            "bt709",
+            "-color_range",
+            "tv",
+        ]);
+        command.args(["-c:v", "libx264", "-preset", "slow", "-crf", "18", "-tune", "animation"]);
+        // The table of contents comes first, so that a film plays while it is loaded.
+        command.args(["-movflags", "+faststart", "-f", "mp4"]).arg(target.draft());
+        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut child = command.spawn().map_err(|error| target.unwritable(&format!("ffmpeg: {error}")))?;
+        let pictures = child.stdin.take();
+        let complaint = child.stderr.take().map(|mut stderr| {
+            std::thread::spawn(move || {
+                let mut text = Vec::new();
+                // The rest is read too, or ffmpeg would wait for a reader.
+                let _ = stderr.by_ref().take(MAX_COMPLAINT).read_to_end(&mut text);
+                let _ = std::io::copy(&mut stderr, &mut std::io::sink());
+                String::from_utf8_lossy(&text).into_owned()
+            })
+        });
+        Ok(Self { target, child, pictures, complaint, finished: false })
+    }
+
+    /// Adds the next picture.
+    pub(super) fn add(&mut self, image: &Image) -> Result<(), Failure> {
+        let written = self.pictures.as_mut().map(|pictures| pictures.write_all(image.bytes()));
+        match written {
+            Some(Ok(())) => Ok(()),
+            // It closed the pipe: why, it says itself.
+            _ => Err(self.failure()),
+        }
+    }
+
+    /// Completes the film.
+    pub(super) fn finish(mut self) -> Result<(), Failure> {
+        drop(self.pictures.take());
+        match self.child.wait() {
+            Ok(status) if status.success() => {
+                self.finished = true;
+                self.target.publish()
+            }
+            _ => Err(self.failure()),
+        }
+    }
+
+    /// What ffmpeg says is wrong.
+    fn failure(&mut self) -> Failure {
+        drop(self.pictures.take());
+        let status = self.child.wait();
+        let complaint = self.complaint.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
+        let lines: Vec<&str> = complaint.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+        let why = if lines.is_empty() {
+            status.map_or_else(|error| error.to_string(), |status| status.to_string())
+        } else {
+            lines.join("; ")
+        };
+        self.target.unwritable(&format!("ffmpeg: {why}"))
+    }
+}
+
+impl Drop for Mp4<'_> {
+    fn drop(&mut self) {
+        if !self.finished {
+            drop(self.pictures.take());
+            // It may have ended already; there is another error to report.
+            let _ = self.child.kill();
+            let _ = self.child.wait();
+            self.target.discard();
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Sheets: pictures beside each other that differ in one thing, a place of the slice, a turn of it, or the moment.
+
+use hyperbody::math::planes::AXIS_NAMES;
+use hyperbody_render::Image;
+
+use super::DEFAULT_MOMENT;
+use super::arguments::{self, SheetAxis};
+use super::plan::{Plan, Sheet};
+use super::timeline::Timeline;
+use super::view::{Sight, View};
+use crate::failure::Failure;
+use crate::output::number;
+use crate::progress::Progress;
+
+/// What differs.
+enum Varied {
+    Time,
+    Place(usize),
+    Turn((usize, usize)),
+}
+
+pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut Timeline) -> Result<(), Failure> {
+    let bad = |message: String| Failure::Input(format!("--sheet: {message}"));
+    let SheetAxis { name, .. } = &sheet.axis;
+    let dimension = timeline.dimension();
+    let varied = if sheet.axis.is_time() {
+        Varied::Time
+    } else if name.chars().count() == 1 {
+        Varied::Place(arguments::axis(name, dimension).map_err(|message| bad(format!("{message}, and t is the time")))?)
+    } else {
+        Varied::Turn(arguments::plane(name, dimension).map_err(bad)?)
+    };
+    let values = sheet.axis.values();
+    let at = sheet.at.unwrap_or_else(|| timeline.up_to(DEFAULT_MOMENT));
+    let moment = |value: f64| if let Varied::Time = varied { value } else { at };
+    // A simulation goes forwards only, whatever the order on the sheet.
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| moment(values[a]).total_cmp(&moment(values[b])).then(a.cmp(&b)));
+    let ordered: Vec<f64> = order.iter().map(|&index| moment(values[index])).collect();
+    if let Some(early) = ordered.first().filter(|first| **first < 0.0) {
+        return Err(bad(format!("there is no moment {early} s; time begins at 0")));
+    }
+    let views: Vec<View<'_>> = values.iter().map(|&value| varied.view(view, value)).collect();
+    // One camera for all pictures, so that they can be compared.
+    let frames = timeline.preview(&ordered)?;
+    let sights: Vec<Sight> =
+        frames.into_iter().zip(&order).map(|(frame, &index)| (frame, views[index].slice(0.0))).collect();
+    let camera = view.camera(timeline, &sights)?;
+    let mut images: Vec<Option<Image>> = vec![None; values.len()];
+    let mut progress = Progress::new("pictures of the sheet", values.len() as u64);
+    for ((frame, _), &index) in sights.iter().zip(&order) {
+        images[index] = Some(views[index].picture(timeline, frame, 0.0, &camera)?);
+        progress.advance();
+    }
+    let images: Vec<Image> = images.into_iter().flatten().collect();
+    let image = Image::sheet(&images, sheet.columns.unwrap_or_else(|| columns(images.len())))?;
+    let mut bytes = Vec::new();
+    image.write_png(&mut bytes)?;
+    plan.target.write(&bytes)
+}
+
+impl Varied {
+    /// The view with one value of what differs, and that in the caption.
+    fn view<'a>(&self, view: &View<'a>, value: f64) -> View<'a> {
+        let mut own = view.clone();
+        // A strip on each would repeat itself; where the slice moves, it is what shows how.
+        own.strip = view.strip && matches!(self, Self::Place(3..));
+        own.caption = Some(match *self {
+            Self::Time => format!("t = {value:.2} s"),
+            Self::Place(axis) => {
+                own.move_to(axis, value);
+                format!("{} = {}", AXIS_NAMES[axis], number(value))
+            }
+            Self::Turn((i, j)) => {
+                own.turn_to((i, j), value.to_radians());
+                format!("{}{} turned {}°", AXIS_NAMES[i], AXIS_NAMES[j], number(value))
+            }
+        });
+        own
+    }
+}
+
+/// As many columns as rows, or one more.
+fn columns(count: usize) -> u32 {
+    (1..=count as u32).find(|columns| (columns * columns) as usize >= count).unwrap_or(1)
+}

@@ -1,0 +1,156 @@
+//! Where the bodies are when: from a scene that is simulated, or from a recording.
+
+use hyperbody::math::{Dim, EvenAlgebra, Pose};
+use hyperbody_render::Bodies;
+use hyperbody_scene::recording::Frame;
+use hyperbody_scene::{AnyWorld, Scene};
+
+use crate::arguments::MAX_STEPS;
+use crate::failure::Failure;
+use crate::output::number;
+use crate::progress::Progress;
+use crate::source::{self, Recording, recording_failure};
+
+/// A simulation at any moment.
+pub(super) struct Timeline {
+    name: String,
+    argument: String,
+    /// The world before its first step: what there is. A recording and a simulation then differ in nothing but where the
+    /// poses come from, and give the same pictures to the last bit.
+    start: AnyWorld,
+    kind: Kind,
+}
+
+enum Kind {
+    /// Steps forwards only.
+    Simulated {
+        scene: Box<Scene>,
+        world: Box<AnyWorld>,
+    },
+    Recorded(Box<Recording>),
+}
+
+impl Timeline {
+    /// The timeline of a scene or a recording.
+    pub(super) fn open(argument: &str, threads: Option<u16>) -> Result<Self, Failure> {
+        let threads = usize::from(threads.unwrap_or(1));
+        if let Some(recording) = source::recording(argument)? {
+            if recording.frame_count() == 0 {
+                return Err(Failure::Input(format!("{argument}: the recording holds no frame")));
+            }
+            let start = AnyWorld::new(recording.scene(), 1)
+                .map_err(|error| Failure::Input(format!("{argument}: the scene in the recording: {error}")))?;
+            let name = recording.scene().name.clone();
+            return Ok(Self { name, argument: argument.to_owned(), start, kind: Kind::Recorded(Box::new(recording)) });
+        }
+        let scene = source::scene(argument)?;
+        let start = AnyWorld::new(&scene, 1)?;
+        let world = Box::new(AnyWorld::new(&scene, threads)?);
+        let kind = Kind::Simulated { scene: Box::new(scene.clone()), world };
+        Ok(Self { name: scene.name, argument: argument.to_owned(), start, kind })
+    }
+
+    /// What the scene is called.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        self.start.dimension()
+    }
+
+    /// The first and the last moment that there is, s; a simulation has no last one.
+    fn span(&self) -> (f64, f64) {
+        match &self.kind {
+            Kind::Simulated { .. } => (0.0, f64::INFINITY),
+            Kind::Recorded(recording) => {
+                let (first, last) = recording.steps().unwrap_or_default();
+                (first as f64 * self.start.dt(), last as f64 * self.start.dt())
+            }
+        }
+    }
+
+    /// This moment, or the last one that there is.
+    pub(super) fn up_to(&self, seconds: f64) -> f64 {
+        let (first, last) = self.span();
+        seconds.clamp(first, last)
+    }
+
+    /// Says whether there is a moment, before the work.
+    pub(super) fn check(&self, seconds: f64) -> Result<(), Failure> {
+        let (first, last) = self.span();
+        let dt = self.start.dt();
+        // Half a step beyond an end is still nearest to it.
+        if !(first - 0.5 * dt..=last + 0.5 * dt).contains(&seconds) {
+            return Err(Failure::Input(format!(
+                "{}: the recording goes from {} s to {} s, and {} s is not in it",
+                self.argument,
+                number(first),
+                number(last),
+                number(seconds)
+            )));
+        }
+        let steps = (seconds / dt).round();
+        if steps > f64::from(MAX_STEPS) {
+            return Err(Failure::Input(format!(
+                "{seconds} s are {steps} steps of {dt} s; at most {MAX_STEPS} steps are simulated at once"
+            )));
+        }
+        Ok(())
+    }
+
+    /// The bodies at a moment, or at the nearest step that there is. A simulation cannot go back.
+    pub(super) fn moment(&mut self, seconds: f64) -> Result<Frame, Failure> {
+        self.check(seconds)?;
+        let step = (seconds / self.start.dt()).round() as u64;
+        match &mut self.kind {
+            Kind::Simulated { world, .. } => {
+                step_to(world, step, &self.name);
+                Ok(Frame::of(world))
+            }
+            Kind::Recorded(recording) => {
+                let frame =
+                    recording.nearest_to_step(step).map_err(|error| recording_failure(&self.argument, &error))?;
+                frame.ok_or_else(|| Failure::Input(format!("{}: the recording holds no frame", self.argument)))
+            }
+        }
+    }
+
+    /// The bodies at moments to come, in order, while a simulation stays where it is: to choose a camera that suits them all.
+    pub(super) fn preview(&mut self, moments: &[f64]) -> Result<Vec<Frame>, Failure> {
+        let Kind::Simulated { scene, .. } = &self.kind else {
+            return moments.iter().map(|&moment| self.moment(moment)).collect();
+        };
+        let mut ahead = AnyWorld::new(scene, 1)?;
+        let mut frames = Vec::with_capacity(moments.len());
+        for &moment in moments {
+            self.check(moment)?;
+            step_to(&mut ahead, (moment / self.start.dt()).round() as u64, "looking ahead");
+            frames.push(Frame::of(&ahead));
+        }
+        Ok(frames)
+    }
+
+    /// What there is to see, where it is in a frame.
+    pub(super) fn bodies<const N: usize>(&self, frame: &Frame) -> Result<Bodies<N>, Failure>
+    where
+        Dim<N>: EvenAlgebra,
+    {
+        let world = self.start.get::<N>();
+        let mut bodies = Bodies::of(world.ok_or_else(|| Failure::Work("the world has another dimension".to_owned()))?);
+        let poses: Option<Vec<Pose<N>>> = (0..frame.body_count()).map(|body| frame.pose(body)).collect();
+        let poses = poses.ok_or_else(|| {
+            Failure::Input(format!("{}: step {} holds a matrix that is no rotation", self.argument, frame.step))
+        })?;
+        bodies.place(&poses)?;
+        Ok(bodies)
+    }
+}
+
+fn step_to(world: &mut AnyWorld, step: u64, what: &str) {
+    let mut progress = Progress::new(what, step.saturating_sub(world.step_count()));
+    while world.step_count() < step {
+        world.step();
+        progress.advance();
+    }
+}

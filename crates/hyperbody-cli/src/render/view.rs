@@ -1,0 +1,293 @@
+//! How to look: the slice, the camera, and what is written on the picture.
+
+use std::sync::Mutex;
+
+use hyperbody::math::{Dim, EvenAlgebra, Vector, planes, scalar};
+use hyperbody_render::{Camera, Image, Settings, Slice, frame_all, render as draw};
+use hyperbody_scene::recording::Frame;
+use hyperbody_scene::{DimensionVisitor, visit_dimension};
+
+use super::arguments::{self, Assignments, RenderArguments};
+use super::timeline::Timeline;
+use crate::failure::Failure;
+use crate::output::number;
+use crate::progress::Progress;
+
+/// A slice of a dimension known at run time only.
+#[derive(Clone)]
+pub(super) struct SliceAt {
+    /// By axes, m.
+    point: Vec<f64>,
+    /// Planes and angles, rad.
+    turns: Vec<(usize, usize, f64)>,
+}
+
+impl SliceAt {
+    fn in_dimension<const N: usize>(&self) -> Slice<N> {
+        let point = Vector::from_fn(|axis| self.point.get(axis).copied().unwrap_or(0.0));
+        self.turns.iter().fold(Slice::natural().moved(point), |slice, &(i, j, angle)| slice.turned(i, j, angle))
+    }
+}
+
+/// One moment and the slice by which it is seen.
+pub(super) type Sight = (Frame, SliceAt);
+
+/// What the arguments say about how to look.
+#[derive(Clone)]
+pub(super) struct View<'a> {
+    arguments: &'a RenderArguments,
+    size: (u32, u32),
+    /// Where the slice is by axes, at the start and at the end of a film, m.
+    points: [Vec<f64>; 2],
+    /// Planes, with angles in radians at the start and at the end of a film.
+    turns: Vec<Turn>,
+    /// What a sheet writes on its pictures in place of the usual caption.
+    pub(super) caption: Option<String>,
+    /// Whether the strip of hidden axes is drawn.
+    pub(super) strip: bool,
+    /// Threads to draw on; 0 for one per core.
+    threads: usize,
+}
+
+#[derive(Clone, Copy)]
+struct Turn {
+    i: usize,
+    j: usize,
+    angles: [f64; 2],
+}
+
+fn bad(option: &str, message: impl Into<String>) -> Failure {
+    Failure::Input(format!("{option}: {}", message.into()))
+}
+
+impl<'a> View<'a> {
+    /// Checks the options against the dimension of the scene.
+    pub(super) fn new(arguments: &'a RenderArguments, dimension: usize, size: (u32, u32)) -> Result<Self, Failure> {
+        let mut view = Self {
+            arguments,
+            size,
+            points: [vec![0.0; dimension], vec![0.0; dimension]],
+            turns: Vec::new(),
+            caption: None,
+            strip: !arguments.no_strip,
+            threads: arguments.threads.map_or(0, usize::from),
+        };
+        for (name, value) in named(&arguments.slice) {
+            view.move_to(arguments::axis(name, dimension).map_err(|message| bad("--slice", message))?, *value);
+        }
+        for (name, value) in named(&arguments.slice_to) {
+            view.points[1][arguments::axis(name, dimension).map_err(|message| bad("--slice-to", message))?] = *value;
+        }
+        for (name, degrees) in named(&arguments.turn) {
+            let (i, j) = arguments::plane(name, dimension).map_err(|message| bad("--turn", message))?;
+            view.turns.push(Turn { i, j, angles: [degrees.to_radians(); 2] });
+        }
+        for (name, degrees) in named(&arguments.turn_to) {
+            let plane = arguments::plane(name, dimension).map_err(|message| bad("--turn-to", message))?;
+            view.turn_in(plane).angles[1] = degrees.to_radians();
+        }
+        view.check_camera()?;
+        Ok(view)
+    }
+
+    fn check_camera(&self) -> Result<(), Failure> {
+        for (option, list, counts) in
+            [("--camera", &self.arguments.camera, 2..=3), ("--look-at", &self.arguments.look_at, 3..=3)]
+        {
+            if let Some(list) = list
+                && !counts.contains(&list.0.len())
+            {
+                let (low, high) = (counts.start(), counts.end());
+                let wanted = if low == high { low.to_string() } else { format!("{low} or {high}") };
+                return Err(bad(option, format!("has {} numbers, expected {wanted}", list.0.len())));
+            }
+        }
+        let distance = self.arguments.camera.as_ref().and_then(|list| list.0.get(2));
+        match distance {
+            Some(&distance) if !(MIN_DISTANCE..=MAX_DISTANCE).contains(&distance) => {
+                let message = format!(
+                    "the distance is {distance} m; the camera stands {MIN_DISTANCE} to {MAX_DISTANCE:e} m away from what it \
+                     looks at (leave the distance out and one that fits is chosen)"
+                );
+                Err(bad("--camera", message))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Moves the slice along an axis, for the whole film.
+    pub(super) fn move_to(&mut self, axis: usize, value: f64) {
+        for point in &mut self.points {
+            point[axis] = value;
+        }
+    }
+
+    /// Turns the slice in a plane, for the whole film, in place of what was said of that plane.
+    pub(super) fn turn_to(&mut self, plane: (usize, usize), angle: f64) {
+        self.turn_in(plane).angles = [angle; 2];
+    }
+
+    /// The last turn in a plane, or one by nothing.
+    fn turn_in(&mut self, (i, j): (usize, usize)) -> &mut Turn {
+        let place = self.turns.iter().rposition(|turn| (turn.i, turn.j) == (i, j)).unwrap_or_else(|| {
+            self.turns.push(Turn { i, j, angles: [0.0; 2] });
+            self.turns.len() - 1
+        });
+        &mut self.turns[place]
+    }
+
+    /// The slice when `share` of a film is over.
+    pub(super) fn slice(&self, share: f64) -> SliceAt {
+        let [from, to] = &self.points;
+        let angle = |turn: &Turn| (turn.i, turn.j, mix(turn.angles[0], turn.angles[1], share));
+        SliceAt {
+            point: from.iter().zip(to).map(|(from, to)| mix(*from, *to, share)).collect(),
+            turns: self.turns.iter().map(angle).collect(),
+        }
+    }
+
+    /// The camera for all of these.
+    pub(super) fn camera(&self, timeline: &Timeline, sights: &[Sight]) -> Result<Camera, Failure> {
+        visit_dimension(timeline.dimension(), ChooseCamera { view: self, timeline, sights })
+            .unwrap_or_else(|| no_such(timeline))
+    }
+
+    /// The bodies of a frame when `share` of a film is over.
+    pub(super) fn picture(
+        &self,
+        timeline: &Timeline,
+        frame: &Frame,
+        share: f64,
+        camera: &Camera,
+    ) -> Result<Image, Failure> {
+        let rows = 3 * u64::from(self.size.1);
+        let progress = Mutex::new((Progress::new("drawing", rows), 0));
+        let tell = |more: u64| {
+            if let Ok(mut progress) = progress.lock() {
+                progress.1 += more;
+                let done = progress.1;
+                progress.0.reach(done);
+            }
+        };
+        let (slice, caption) = (self.slice(share), self.caption(timeline, frame, share));
+        let task = Draw { view: self, timeline, frame, slice, camera, caption, tell: &tell };
+        visit_dimension(timeline.dimension(), task).unwrap_or_else(|| no_such(timeline))
+    }
+
+    fn caption(&self, timeline: &Timeline, frame: &Frame, share: f64) -> Vec<String> {
+        if self.arguments.no_caption {
+            return Vec::new();
+        }
+        if let Some(caption) = &self.caption {
+            return vec![caption.clone()];
+        }
+        let dimension = timeline.dimension();
+        let slice = self.slice(share);
+        let mut second = format!("t = {:.2} s", frame.time);
+        for hidden in 3..dimension {
+            second += &format!("   {} = {:.2}", planes::AXIS_NAMES[hidden], slice.point[hidden]);
+        }
+        for (turn, (i, j, angle)) in self.turns.iter().zip(slice.turns) {
+            let degrees = angle.to_degrees();
+            let degrees = if turn.angles[0] == turn.angles[1] { number(degrees) } else { format!("{degrees:.0}") };
+            second += &format!("   {}{} turned {degrees}°", planes::AXIS_NAMES[i], planes::AXIS_NAMES[j]);
+        }
+        vec![format!("{}, {dimension}D", timeline.name()), second]
+    }
+
+    /// The camera as the options change it.
+    fn adjusted(&self, chosen: Camera) -> Camera {
+        let mut camera = chosen;
+        if let Some(point) = self.arguments.look_at.as_ref().and_then(|list| Vector::from_slice(&list.0)) {
+            camera.eye += point - camera.target;
+            camera.target = point;
+        }
+        let mut distance = camera.eye.distance(camera.target);
+        if let Some(degrees) = self.arguments.field_of_view {
+            let tangent = |angle: f64| scalar::tan(0.5 * angle);
+            distance *= tangent(camera.field_of_view) / tangent(degrees.to_radians());
+            camera.eye = camera.target + (camera.eye - camera.target).normalize_or_zero() * distance;
+            camera.field_of_view = degrees.to_radians();
+        }
+        if let Some(list) = &self.arguments.camera {
+            let distance = list.0.get(2).copied().unwrap_or(distance);
+            let (around, above) = (list.0[0].to_radians(), list.0[1].to_radians());
+            let field_of_view = camera.field_of_view;
+            camera = Camera { field_of_view, ..Camera::around(camera.target, camera.up, distance, around, above) };
+        }
+        camera
+    }
+}
+
+/// Distances of the camera that make sense, m.
+const MIN_DISTANCE: f64 = 0.001;
+const MAX_DISTANCE: f64 = 1e6;
+
+fn named(list: &Option<Assignments>) -> &[(String, f64)] {
+    list.as_ref().map_or(&[], |list| &list.0)
+}
+
+fn mix(from: f64, to: f64, share: f64) -> f64 {
+    from + (to - from) * share
+}
+
+fn no_such<T>(timeline: &Timeline) -> Result<T, Failure> {
+    Err(Failure::Work(format!("no pictures in {} dimensions", timeline.dimension())))
+}
+
+/// Choosing a camera, in the dimension of the world.
+struct ChooseCamera<'a> {
+    view: &'a View<'a>,
+    timeline: &'a Timeline,
+    sights: &'a [Sight],
+}
+
+impl DimensionVisitor for ChooseCamera<'_> {
+    type Output = Result<Camera, Failure>;
+
+    fn visit<const N: usize>(self) -> Self::Output
+    where
+        Dim<N>: EvenAlgebra,
+    {
+        let mut sights = Vec::with_capacity(self.sights.len());
+        for (frame, slice) in self.sights {
+            sights.push((self.timeline.bodies::<N>(frame)?, slice.in_dimension::<N>()));
+        }
+        let (width, height) = self.view.size;
+        Ok(self.view.adjusted(frame_all(&sights, f64::from(width) / f64::from(height))))
+    }
+}
+
+/// Drawing, in the dimension of the world.
+struct Draw<'a> {
+    view: &'a View<'a>,
+    timeline: &'a Timeline,
+    frame: &'a Frame,
+    slice: SliceAt,
+    camera: &'a Camera,
+    caption: Vec<String>,
+    tell: &'a (dyn Fn(u64) + Sync),
+}
+
+impl DimensionVisitor for Draw<'_> {
+    type Output = Result<Image, Failure>;
+
+    fn visit<const N: usize>(self) -> Self::Output
+    where
+        Dim<N>: EvenAlgebra,
+    {
+        let bodies = self.timeline.bodies::<N>(self.frame)?;
+        let (width, height) = self.view.size;
+        let settings = Settings {
+            width,
+            height,
+            light_rays: self.view.arguments.quality,
+            ghosts: !self.view.arguments.no_ghosts,
+            strip: self.view.strip,
+            caption: self.caption,
+            threads: self.view.threads,
+            ..Settings::default()
+        };
+        Ok(draw(&bodies, &self.slice.in_dimension::<N>(), Some(self.camera), &settings, self.tell)?)
+    }
+}

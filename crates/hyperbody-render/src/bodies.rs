@@ -1,0 +1,60 @@
+//! The bodies of a world as pictures need them. Where they are comes apart from what they are, so that one and the same picture is
+//! made of a world that steps and of a recording of it.
+
+use hyperbody::math::{Pose, Vector};
+use hyperbody::prelude::{BodyKind, Shape, World};
+
+use crate::error::RenderError;
+
+/// What is to be seen: bodies, where they are, and which way is down.
+#[derive(Clone, Debug)]
+pub struct Bodies<const N: usize> {
+    pub(crate) gravity: Vector<N>,
+    pub(crate) all: Vec<Shown<N>>,
+}
+
+/// One body.
+#[derive(Clone, Debug)]
+pub(crate) struct Shown<const N: usize> {
+    pub(crate) kind: BodyKind,
+    pub(crate) shape: Shape<N>,
+    /// Centre of mass in the frame of the body, m.
+    centre_in_body: Vector<N>,
+    pub(crate) pose: Pose<N>,
+}
+
+impl<const N: usize> Shown<N> {
+    /// Centre of mass in the world, m.
+    pub(crate) fn centre(&self) -> Vector<N> {
+        self.pose.transform_point(self.centre_in_body)
+    }
+}
+
+impl<const N: usize> Bodies<N> {
+    /// The bodies of a world where they are now.
+    #[must_use]
+    pub fn of(world: &World<N>) -> Self {
+        let shown = |body: hyperbody::prelude::BodyRef<'_, N>| Shown {
+            kind: body.kind(),
+            shape: body.shape().clone(),
+            centre_in_body: body.pose().inverse_transform_point(body.centre_of_mass()),
+            pose: body.pose(),
+        };
+        Self { gravity: world.gravity(), all: world.bodies().map(|(_, body)| shown(body)).collect() }
+    }
+
+    /// Puts the bodies where they are at another moment, in the order of [`World::bodies`].
+    ///
+    /// # Errors
+    /// If there are not as many poses as bodies.
+    pub fn place(&mut self, poses: &[Pose<N>]) -> Result<(), RenderError> {
+        if poses.len() != self.all.len() {
+            let message = format!("{} poses are given for {} bodies; give each its own", poses.len(), self.all.len());
+            return Err(RenderError::new(message));
+        }
+        for (body, pose) in self.all.iter_mut().zip(poses) {
+            body.pose = *pose;
+        }
+        Ok(())
+    }
+}
