@@ -3,12 +3,13 @@
 //! A collider's box in the tree stands off by a margin, so that a slow body stays in it for many steps; only colliders
 //! that left their box are put back and asked for new neighbours.
 
-use hyperbody_collision::{DynamicTree, Manifold, PairCache};
+use hyperbody_collision::DynamicTree;
 use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_math::{Bivector, Vector};
+use hyperbody_math::Vector;
 
 use crate::body::Body;
+use crate::narrow_phase::moved;
 use crate::pairs::Pair;
 use crate::world::Collider;
 use crate::{BodyKind, World};
@@ -28,12 +29,26 @@ impl<const N: usize> World<N> {
     }
 
     fn refit_boxes(&mut self) {
-        for collider in self.colliders.iter_mut().flatten() {
+        for (collider, motion) in self.colliders.iter_mut().zip(&mut self.motions) {
+            let Some(collider) = collider else { continue };
             let Some(body) = self.bodies.at(collider.body) else { continue };
-            if !(body.is_awake() || collider.moved) {
+            motion.awake = body.is_awake();
+            motion.speed = if body.quarantined { f64::INFINITY } else { 0.0 };
+            if !(motion.awake || collider.moved) {
                 continue;
             }
-            collider.world_from_collider = body.world_from_body() * collider.body_from_collider;
+            if motion.awake {
+                let spin = if body.radius > 0.0 { body.angular_velocity.norm() * body.radius } else { 0.0 };
+                motion.speed = body.velocity.norm() + spin;
+            }
+            let pose = body.world_from_body() * collider.body_from_collider;
+            motion.way += match &collider.piece {
+                Piece::Convex(_) => moved(&collider.world_from_collider, &pose, collider.reach),
+                // Unbounded: wherever it turns, something is swept.
+                Piece::HalfSpace { .. } if pose != collider.world_from_collider => 2.0 * self.tuning.recycle_distance,
+                Piece::HalfSpace { .. } => 0.0,
+            };
+            collider.world_from_collider = pose;
             let (Piece::Convex(convex), Some(proxy)) = (&collider.piece, collider.proxy) else { continue };
             let tight = convex.aabb(&collider.world_from_collider);
             // All that the body can reach within the step; twice as far when the box is made anew.
@@ -50,6 +65,9 @@ impl<const N: usize> World<N> {
 
     fn drop_ended_pairs(&mut self) {
         let colliders = &self.colliders;
+        if !colliders.iter().flatten().any(|collider| collider.moved) {
+            return;
+        }
         self.pairs.retain(|pair| {
             let (Some(a), Some(b)) = (&colliders[pair.collider_a as usize], &colliders[pair.collider_b as usize])
             else {
@@ -107,22 +125,8 @@ impl<const N: usize> World<N> {
         if a.body == b.body || !may_collide(body_a, body_b) || self.are_joined(body_a, b.body) {
             return None;
         }
-        Some(Pair {
-            collider_a,
-            collider_b,
-            body_a: a.body,
-            body_b: b.body,
-            radii: (rounding(a), rounding(b)),
-            friction: body_a.material.combined_friction(&body_b.material),
-            restitution: body_a.material.combined_restitution(&body_b.material),
-            manifold: Manifold::default(),
-            normal_impulses: [0.0; hyperbody_collision::MAX_POINTS],
-            step_impulses: [0.0; hyperbody_collision::MAX_POINTS],
-            friction_impulse: Vector::ZERO,
-            twist_impulse: Bivector::ZERO,
-            recycled: None,
-            cache: PairCache::default(),
-        })
+        let bounces = body_a.material.combined_restitution(&body_b.material) > 0.0;
+        Some(Pair::new((collider_a, a.body), (collider_b, b.body), bounces))
     }
 
     fn are_joined(&self, body: &Body<N>, other: u32) -> bool {
@@ -130,14 +134,6 @@ impl<const N: usize> World<N> {
             .iter()
             .filter_map(|&slot| self.joints.at(slot))
             .any(|joint| joint.body_a == other || joint.body_b == other)
-    }
-}
-
-/// Radius by which a collider's core is rounded, m.
-fn rounding<const N: usize>(collider: &Collider<N>) -> f64 {
-    match &collider.piece {
-        Piece::Convex(convex) => convex.radius,
-        Piece::HalfSpace { .. } => 0.0,
     }
 }
 

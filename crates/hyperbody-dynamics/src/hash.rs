@@ -51,7 +51,8 @@ impl<const N: usize> World<N> {
         }
         for pair in self.pairs.iter() {
             hasher.word(u64::from(pair.collider_a) << 32 | u64::from(pair.collider_b));
-            for (point, impulse) in pair.manifold.points().iter().zip(&pair.normal_impulses) {
+            let Some(contact) = &pair.contact else { continue };
+            for (point, impulse) in contact.manifold.points().iter().zip(&contact.normal_impulses) {
                 hasher.number(point.separation);
                 hasher.word(u64::from(impulse.to_bits()));
             }

@@ -9,7 +9,7 @@ use hyperbody_math::Vector;
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::Pair;
+use crate::pairs::Contact;
 use crate::{BodyHandle, World};
 
 /// Sleeping islands, and the buffers of union–find.
@@ -135,7 +135,7 @@ impl<const N: usize> World<N> {
         self.islands.parent.clear();
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
         self.islands.parent.extend(0..slot_count as u32);
-        for pair in self.pairs.iter().filter(|pair| !pair.manifold.points().is_empty()) {
+        for pair in self.pairs.iter().filter(|pair| pair.points > 0) {
             unite_moving(&mut self.islands, &self.bodies, pair.body_a, pair.body_b);
         }
         for joint in self.joints.values() {
@@ -162,8 +162,9 @@ impl<const N: usize> World<N> {
         let mut held = std::mem::take(&mut self.islands.held);
         held.clear();
         held.resize(self.bodies.slot_count(), self.gravity == Vector::ZERO);
-        let touching = |pair: &Pair<N>| pair.step_impulses.iter().any(|&impulse| impulse > 0.0);
-        let contacts = self.pairs.iter().filter(|pair| touching(pair)).map(|pair| (pair.body_a, pair.body_b));
+        let presses = |contact: &Contact<N>| contact.step_impulses.iter().any(|&impulse| impulse > 0.0);
+        let pressed = self.pairs.iter().filter(|pair| pair.contact.as_deref().is_some_and(presses));
+        let contacts = pressed.map(|pair| (pair.body_a, pair.body_b));
         let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b));
         for (a, b) in contacts.chain(joints) {
             for (body, other) in [(a, b), (b, a)] {

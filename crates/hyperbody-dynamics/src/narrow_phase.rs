@@ -3,13 +3,13 @@
 use hyperbody_collision::{MAX_POINTS, Manifold, PairCache, Scratch, collide};
 use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_math::{Pose, Rotation, Vector};
+use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 use rayon::prelude::*;
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::{Pair, Recycled};
-use crate::world::Collider;
+use crate::pairs::{Carried, Contact, Pair};
+use crate::world::{Collider, Motion};
 use crate::{BodyHandle, World};
 
 /// A pair of bodies that touch, or are about to.
@@ -29,13 +29,14 @@ impl<const N: usize> ContactRef<'_, N> {
     /// Unit normal in the world, from a to b.
     #[must_use]
     pub fn normal(&self) -> Vector<N> {
-        self.pair.manifold.normal
+        self.pair.manifold().normal
     }
 
     /// Points of contact: position in the world (m), separation along the normal (m, negative is overlap), and normal
     /// impulse over the last step (N·s).
     pub fn points(&self) -> impl Iterator<Item = (Vector<N>, f64, f64)> + '_ {
-        let points = self.pair.manifold.points().iter().zip(&self.pair.step_impulses);
+        let contact = self.pair.contact.iter();
+        let points = contact.flat_map(|contact| contact.manifold.points().iter().zip(&contact.step_impulses));
         points.map(|(point, impulse)| (point.position, point.separation, f64::from(*impulse)))
     }
 }
@@ -46,6 +47,7 @@ impl<const N: usize> World<N> {
         let update = Update {
             colliders: &self.colliders,
             bodies: &self.bodies,
+            motions: &self.motions,
             margin: self.tuning.speculative_distance,
             recycle_distance: self.tuning.recycle_distance,
             dt: self.dt,
@@ -73,11 +75,9 @@ impl<const N: usize> World<N> {
     fn measure_contacts(&mut self) {
         self.max_penetration = 0.0;
         self.contact_count = 0;
-        for point in self.pairs.iter().flat_map(|pair| pair.manifold.points()) {
-            if point.separation <= 0.0 {
-                self.contact_count += 1;
-                self.max_penetration = self.max_penetration.max(-point.separation);
-            }
+        for pair in self.pairs.iter() {
+            self.contact_count += usize::from(pair.touching);
+            self.max_penetration = self.max_penetration.max(pair.deepest);
         }
     }
 
@@ -96,7 +96,7 @@ impl<const N: usize> World<N> {
             let mut manifold = Manifold::default();
             let world_from_a = body_a.world_from_body() * a.body_from_collider;
             let world_from_b = body_b.world_from_body() * b.body_from_collider;
-            let mut cache = pair.cache.clone();
+            let mut cache = pair.search.cache.clone();
             let pieces: (&Piece<N>, &Piece<N>) = (&a.piece, &b.piece);
             collide(pieces.0, &world_from_a, pieces.1, &world_from_b, 0.0, &mut cache, &mut scratch, &mut manifold);
             for point in manifold.points() {
@@ -108,7 +108,7 @@ impl<const N: usize> World<N> {
 
     /// Pairs of bodies that touch or are about to, as the last step found them, in the order of its work.
     pub fn contacts(&self) -> impl Iterator<Item = ContactRef<'_, N>> {
-        self.pairs.iter().filter(|pair| !pair.manifold.points().is_empty()).filter_map(|pair| {
+        self.pairs.iter().filter(|pair| pair.points > 0).filter_map(|pair| {
             let bodies = (self.bodies.handle_at(pair.body_a)?, self.bodies.handle_at(pair.body_b)?);
             Some(ContactRef { pair, bodies })
         })
@@ -120,6 +120,8 @@ impl<const N: usize> World<N> {
 struct Update<'a, const N: usize> {
     colliders: &'a [Option<Collider<N>>],
     bodies: &'a Arena<Body<N>, BodyHandle>,
+    /// By slot of the collider.
+    motions: &'a [Motion],
     /// m.
     margin: f64,
     /// m.
@@ -129,7 +131,23 @@ struct Update<'a, const N: usize> {
 }
 
 impl<const N: usize> Update<'_, N> {
+    /// Brings a pair up to date, by the cheapest of three ways that does: carrying along what was found before.
     fn pair(&self, pair: &mut Pair<N>, scratch: &mut Scratch<N>) {
+        let (a, b) = (&self.motions[pair.collider_a as usize], &self.motions[pair.collider_b as usize]);
+        // Between sleepers and the immovable nothing changed.
+        if !(a.awake || b.awake) {
+            return;
+        }
+        // What was left out of the kept manifold was farther apart than the margin, and stays out of reach.
+        let calm = self.dt * (a.speed + b.speed) + self.recycle_distance <= self.margin;
+        if !(calm && a.way + b.way <= pair.holds_until) {
+            self.look_closer(pair, a.way + b.way, scratch);
+        } else if pair.points > 0 {
+            self.carry_along(pair);
+        }
+    }
+
+    fn look_closer(&self, pair: &mut Pair<N>, way: f64, scratch: &mut Scratch<N>) {
         let (Some(a), Some(b)) = (&self.colliders[pair.collider_a as usize], &self.colliders[pair.collider_b as usize])
         else {
             return;
@@ -139,19 +157,20 @@ impl<const N: usize> Update<'_, N> {
             pair.forget();
             return;
         }
-        // Between sleepers and the immovable nothing changed.
-        if !(body_a.is_awake() || body_b.is_awake()) {
-            return;
-        }
         let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
-        // What was left out of the kept manifold was farther apart than the margin, and stays out of reach.
         let closing = self.closing_distance(body_a, body_b);
-        if let Some(kept) = &pair.recycled
+        if let Some(kept) = &pair.search.a_from_b
             && closing + self.recycle_distance <= self.margin
-            && moved(&kept.a_from_b, &a_from_b, a.reach.max(b.reach)) <= self.recycle_distance
         {
-            carry_along(kept, &mut pair.manifold, &a.world_from_collider, &b.world_from_collider);
-            return;
+            // Along the way the two may have come back, or gone together.
+            let left = self.recycle_distance - moved(kept, &a_from_b, a.reach.max(b.reach));
+            if left >= 0.0 {
+                pair.holds_until = way + left;
+                if pair.points > 0 {
+                    self.carry_along(pair);
+                }
+                return;
+            }
         }
         let mut manifold = Manifold::default();
         collide(
@@ -160,15 +179,41 @@ impl<const N: usize> Update<'_, N> {
             &b.piece,
             &b.world_from_collider,
             self.margin + AFTER_IMPACT * closing,
-            &mut pair.cache,
+            &mut pair.search.cache,
             scratch,
             &mut manifold,
         );
         self.drop_unreached(&mut manifold, (a, body_a), (b, body_b), scratch);
-        carry_over(pair, &manifold, self.margin);
-        pair.manifold = manifold;
-        let keep = flat_faced(&a.piece) && flat_faced(&b.piece);
-        pair.recycled = keep.then(|| record(&manifold, a_from_b, &a.world_from_collider, &b.world_from_collider));
+        let empty = manifold.points().is_empty();
+        if !(empty && pair.contact.is_none()) {
+            let contact = pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b))));
+            carry_over(contact, &manifold, self.margin);
+            contact.manifold = manifold;
+            record(contact, &a.world_from_collider, &b.world_from_collider);
+        }
+        pair.summarize();
+        let keep = empty || (flat_faced(&a.piece) && flat_faced(&b.piece));
+        pair.search.a_from_b = keep.then_some(a_from_b);
+        pair.holds_until = if keep { way + self.recycle_distance } else { f64::NEG_INFINITY };
+    }
+
+    /// Makes the manifold of a pair anew from its carried form at the colliders' present poses.
+    fn carry_along(&self, pair: &mut Pair<N>) {
+        let (Some(a), Some(b), Some(contact)) =
+            (&self.colliders[pair.collider_a as usize], &self.colliders[pair.collider_b as usize], &mut pair.contact)
+        else {
+            return;
+        };
+        let (world_from_a, world_from_b) = (&a.world_from_collider, &b.world_from_collider);
+        let normal = world_from_a.rotation.rotate(contact.carried.normal_in_a);
+        contact.manifold.normal = normal;
+        for (point, anchor) in contact.manifold.points_mut().iter_mut().zip(&contact.carried.anchors) {
+            let on_a = world_from_a.transform_point(anchor.0);
+            let on_b = world_from_b.transform_point(anchor.1);
+            point.position = (on_a + on_b) * 0.5;
+            point.separation = (on_b - on_a).dot(normal);
+        }
+        pair.summarize();
     }
 }
 
@@ -275,7 +320,7 @@ fn flat_faced<const N: usize>(piece: &Piece<N>) -> bool {
 }
 
 /// How far any point of either, within `reach` of its frame's origin, moved against the other, m; at most.
-fn moved<const N: usize>(then: &Pose<N>, now: &Pose<N>, reach: f64) -> f64 {
+pub(crate) fn moved<const N: usize>(then: &Pose<N>, now: &Pose<N>, reach: f64) -> f64 {
     let mut turned_sq = 0.0;
     for i in 0..N {
         turned_sq += (now.rotation.matrix().row(i) - then.rotation.matrix().row(i)).norm_sq();
@@ -283,52 +328,48 @@ fn moved<const N: usize>(then: &Pose<N>, now: &Pose<N>, reach: f64) -> f64 {
     now.translation.distance(then.translation) + turned_sq.sqrt() * reach
 }
 
-/// A manifold in the frames of its colliders.
-fn record<const N: usize>(
-    manifold: &Manifold<N>,
-    a_from_b: Pose<N>,
-    world_from_a: &Pose<N>,
-    world_from_b: &Pose<N>,
-) -> Recycled<N> {
-    let mut anchors = [(Vector::ZERO, Vector::ZERO); MAX_POINTS];
-    for (anchor, point) in anchors.iter_mut().zip(manifold.points()) {
+/// What two colliders remember that touch for the first time.
+fn meet_first<const N: usize>(
+    (a, body_a): (&Collider<N>, &Body<N>),
+    (b, body_b): (&Collider<N>, &Body<N>),
+) -> Contact<N> {
+    Contact {
+        radii: (a.rounding(), b.rounding()),
+        friction: body_a.material.combined_friction(&body_b.material),
+        restitution: body_a.material.combined_restitution(&body_b.material),
+        manifold: Manifold::default(),
+        normal_impulses: [0.0; MAX_POINTS],
+        step_impulses: [0.0; MAX_POINTS],
+        friction_impulse: Vector::ZERO,
+        twist_impulse: Bivector::ZERO,
+        carried: Carried { normal_in_a: Vector::ZERO, anchors: [(Vector::ZERO, Vector::ZERO); MAX_POINTS] },
+    }
+}
+
+/// Notes the manifold in the frames of its colliders.
+fn record<const N: usize>(contact: &mut Contact<N>, world_from_a: &Pose<N>, world_from_b: &Pose<N>) {
+    let Contact { manifold, carried, .. } = contact;
+    for (anchor, point) in carried.anchors.iter_mut().zip(manifold.points()) {
         let half_gap = manifold.normal * (0.5 * point.separation);
         *anchor = (
             world_from_a.inverse_transform_point(point.position - half_gap),
             world_from_b.inverse_transform_point(point.position + half_gap),
         );
     }
-    Recycled { a_from_b, normal_in_a: world_from_a.rotation.inverse_rotate(manifold.normal), anchors }
-}
-
-/// Makes a manifold anew from its recorded form at the colliders' present poses.
-fn carry_along<const N: usize>(
-    kept: &Recycled<N>,
-    manifold: &mut Manifold<N>,
-    world_from_a: &Pose<N>,
-    world_from_b: &Pose<N>,
-) {
-    manifold.normal = world_from_a.rotation.rotate(kept.normal_in_a);
-    let normal = manifold.normal;
-    for (point, anchor) in manifold.points_mut().iter_mut().zip(&kept.anchors) {
-        let on_a = world_from_a.transform_point(anchor.0);
-        let on_b = world_from_b.transform_point(anchor.1);
-        point.position = (on_a + on_b) * 0.5;
-        point.separation = (on_b - on_a).dot(normal);
-    }
+    carried.normal_in_a = world_from_a.rotation.inverse_rotate(manifold.normal);
 }
 
 /// Gives the points of a new manifold the impulses of the old points that they continue: those of the same id, else the
 /// nearest one that is left within `reach`. Impulses of points that ended are dropped.
-fn carry_over<const N: usize>(pair: &mut Pair<N>, new: &Manifold<N>, reach: f64) {
-    let old = pair.manifold.points();
+fn carry_over<const N: usize>(contact: &mut Contact<N>, new: &Manifold<N>, reach: f64) {
+    let old = contact.manifold.points();
     let mut impulses = [0.0; MAX_POINTS];
     let mut taken = [false; MAX_POINTS];
     let mut matched = [false; MAX_POINTS];
     for (k, point) in new.points().iter().enumerate() {
         let same = old.iter().enumerate().position(|(o, other)| other.id == point.id && !taken[o]);
         if let Some(o) = same {
-            impulses[k] = pair.normal_impulses[o];
+            impulses[k] = contact.normal_impulses[o];
             taken[o] = true;
             matched[k] = true;
         }
@@ -344,14 +385,14 @@ fn carry_over<const N: usize>(pair: &mut Pair<N>, new: &Manifold<N>, reach: f64)
             }
         }
         if let Some(o) = nearest {
-            impulses[k] = pair.normal_impulses[o];
+            impulses[k] = contact.normal_impulses[o];
             taken[o] = true;
         }
     }
     if new.points().is_empty() {
-        pair.friction_impulse = Vector::ZERO;
-        pair.twist_impulse = hyperbody_math::Bivector::ZERO;
+        contact.friction_impulse = Vector::ZERO;
+        contact.twist_impulse = Bivector::ZERO;
     }
-    pair.normal_impulses = impulses;
-    pair.step_impulses = [0.0; MAX_POINTS];
+    contact.normal_impulses = impulses;
+    contact.step_impulses = [0.0; MAX_POINTS];
 }

@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use hyperbody_collision::{MAX_POINTS, Manifold, PairCache};
 use hyperbody_math::{Bivector, Pose, Vector};
 
-/// Two colliders that may touch.
+/// Two colliders that may touch: what every step looks at. Of the many pairs that are near each other few touch, and of
+/// those that touch few have moved; what the others need stands apart, so that passing by costs one line of cache.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair<const N: usize> {
     /// Slots of the colliders, a < b.
@@ -17,6 +18,32 @@ pub(crate) struct Pair<const N: usize> {
     /// Slots of their bodies.
     pub(crate) body_a: u32,
     pub(crate) body_b: u32,
+    /// What was found of the two holds while the sum of their ways is at most this (see `Motion::way`), m.
+    pub(crate) holds_until: f64,
+    /// Deepest overlap of its points, m; zero where none overlaps.
+    pub(crate) deepest: f64,
+    /// Points of its manifold, and how many of them overlap.
+    pub(crate) points: u8,
+    pub(crate) touching: u8,
+    /// max(e_a, e_b) > 0.
+    pub(crate) bounces: bool,
+    pub(crate) search: Box<Search<N>>,
+    /// Made when the two touch for the first time.
+    pub(crate) contact: Option<Box<Contact<N>>>,
+}
+
+/// What searching for contact anew starts from.
+#[derive(Clone, Debug)]
+pub(crate) struct Search<const N: usize> {
+    /// The relative pose of the last search, if its outcome may be kept while the two hardly move.
+    pub(crate) a_from_b: Option<Pose<N>>,
+    /// What the narrow phase wants to keep.
+    pub(crate) cache: PairCache<N>,
+}
+
+/// What two colliders that touch remember.
+#[derive(Clone, Debug)]
+pub(crate) struct Contact<const N: usize> {
     /// Radii by which the colliders' cores are rounded, m.
     pub(crate) radii: (f64, f64),
     /// √(μ_a μ_b).
@@ -33,30 +60,56 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) friction_impulse: Vector<N>,
     /// Warm start: twisting friction impulse on b over one substep, world frame, N·m·s.
     pub(crate) twist_impulse: Bivector<N>,
-    /// The contact as the bodies carry it along, if it may be kept.
-    pub(crate) recycled: Option<Recycled<N>>,
-    /// What the narrow phase wants to keep.
-    pub(crate) cache: PairCache<N>,
+    /// The manifold as the bodies carry it along.
+    pub(crate) carried: Carried<N>,
 }
 
 impl<const N: usize> Pair<N> {
+    /// A pair of which nothing is known yet.
+    pub(crate) fn new((collider_a, body_a): (u32, u32), (collider_b, body_b): (u32, u32), bounces: bool) -> Self {
+        Self {
+            collider_a,
+            collider_b,
+            body_a,
+            body_b,
+            holds_until: f64::NEG_INFINITY,
+            deepest: 0.0,
+            points: 0,
+            touching: 0,
+            bounces,
+            search: Box::new(Search { a_from_b: None, cache: PairCache::default() }),
+            contact: None,
+        }
+    }
+
     /// Forgets contact and impulses, as if the two had never met.
     pub(crate) fn forget(&mut self) {
-        self.manifold.clear();
-        self.normal_impulses = [0.0; MAX_POINTS];
-        self.step_impulses = [0.0; MAX_POINTS];
-        self.friction_impulse = Vector::ZERO;
-        self.twist_impulse = Bivector::ZERO;
-        self.recycled = None;
-        self.cache = PairCache::default();
+        *self = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.bounces);
+    }
+
+    /// The touching points, with their normal; empty where the two have not met.
+    pub(crate) fn manifold(&self) -> &Manifold<N> {
+        self.contact.as_ref().map_or(const { &Manifold::EMPTY }, |contact| &contact.manifold)
+    }
+
+    /// Notes what the manifold holds.
+    pub(crate) fn summarize(&mut self) {
+        let (mut deepest, mut touching) = (0.0_f64, 0);
+        for point in self.manifold().points() {
+            if point.separation <= 0.0 {
+                deepest = deepest.max(-point.separation);
+                touching += 1;
+            }
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "at most MAX_POINTS")]
+        let points = self.manifold().points().len() as u8;
+        (self.deepest, self.touching, self.points) = (deepest, touching, points);
     }
 }
 
 /// A manifold in the frames of its two colliders, from which it can be made anew while they hardly move.
 #[derive(Clone, Debug)]
-pub(crate) struct Recycled<const N: usize> {
-    /// When the manifold was computed.
-    pub(crate) a_from_b: Pose<N>,
+pub(crate) struct Carried<const N: usize> {
     pub(crate) normal_in_a: Vector<N>,
     /// The two surfaces' points of each contact point.
     pub(crate) anchors: [(Vector<N>, Vector<N>); MAX_POINTS],
@@ -65,7 +118,7 @@ pub(crate) struct Recycled<const N: usize> {
 /// All pairs of a world.
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs<const N: usize> {
-    slots: Vec<Option<Box<Pair<N>>>>,
+    slots: Vec<Option<Pair<N>>>,
     free: Vec<u32>,
     slot_of: BTreeMap<(u32, u32), u32>,
 }
@@ -87,7 +140,7 @@ impl<const N: usize> Pairs<N> {
             let last = (self.slots.len() - 1) as u32;
             last
         });
-        self.slots[slot as usize] = Some(Box::new(pair));
+        self.slots[slot as usize] = Some(pair);
         self.slot_of.insert(key, slot);
     }
 
@@ -106,22 +159,22 @@ impl<const N: usize> Pairs<N> {
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Pair<N>> {
-        self.slots.iter().flatten().map(AsRef::as_ref)
+        self.slots.iter().flatten()
     }
 
     pub(crate) fn get(&self, slot: u32) -> Option<&Pair<N>> {
-        self.slots[slot as usize].as_deref()
+        self.slots[slot as usize].as_ref()
     }
 
     pub(crate) fn get_mut(&mut self, slot: u32) -> Option<&mut Pair<N>> {
-        self.slots[slot as usize].as_deref_mut()
+        self.slots[slot as usize].as_mut()
     }
 
-    pub(crate) fn slots(&self) -> &[Option<Box<Pair<N>>>] {
+    pub(crate) fn slots(&self) -> &[Option<Pair<N>>] {
         &self.slots
     }
 
-    pub(crate) fn slots_mut(&mut self) -> &mut [Option<Box<Pair<N>>>] {
+    pub(crate) fn slots_mut(&mut self) -> &mut [Option<Pair<N>>] {
         &mut self.slots
     }
 }

@@ -60,6 +60,9 @@ impl<const N: usize> World<N> {
 
     /// Wakes sleepers that something awake touches or is jointed to, until none is left.
     pub(crate) fn wake_touched(&mut self) {
+        if !self.bodies.values().any(|body| body.asleep_in.is_some()) {
+            return;
+        }
         // Each round wakes at least one island or is the last.
         for _ in 0..=self.islands.count() {
             let mut woken = false;
@@ -67,7 +70,7 @@ impl<const N: usize> World<N> {
                 #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
                 let Some(pair) = self.pairs.get(slot as u32) else { continue };
                 let (a, b) = (pair.body_a, pair.body_b);
-                if self.touches_within_step(pair) {
+                if pair.points > 0 && self.touches_within_step(pair) {
                     woken |= self.wake_across(a, b);
                 }
             }
@@ -86,9 +89,10 @@ impl<const N: usize> World<N> {
     /// Whether some point of a pair touches, or will before the step ends: the solver would press there.
     fn touches_within_step(&self, pair: &Pair<N>) -> bool {
         let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return false };
-        pair.manifold.points().iter().any(|point| {
+        let manifold = pair.manifold();
+        manifold.points().iter().any(|point| {
             let approach = velocity_near(a, point.position) - velocity_near(b, point.position);
-            let closing = approach.dot(pair.manifold.normal);
+            let closing = approach.dot(manifold.normal);
             point.separation <= self.tuning.slop + closing.max(0.0) * self.dt
         })
     }

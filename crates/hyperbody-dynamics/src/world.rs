@@ -69,6 +69,27 @@ pub(crate) struct Collider<const N: usize> {
     pub(crate) moved: bool,
 }
 
+impl<const N: usize> Collider<N> {
+    /// Radius by which its core is rounded, m.
+    pub(crate) fn rounding(&self) -> f64 {
+        match &self.piece {
+            Piece::Convex(convex) => convex.radius,
+            Piece::HalfSpace { .. } => 0.0,
+        }
+    }
+}
+
+/// How a collider moves, beside it: the pairs ask for this at every step, and for the rest seldom.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion {
+    /// Length of the way that the farthest-going of its points has come, at most, m; only grows.
+    pub(crate) way: f64,
+    /// Speed of its fastest point, at most, m/s; infinite in quarantine, where nothing that was known holds.
+    pub(crate) speed: f64,
+    /// Whether its body may move in this step.
+    pub(crate) awake: bool,
+}
+
 /// Bodies, joints, and the law that moves them, in `N` dimensions.
 pub struct World<const N: usize> {
     pub(crate) gravity: Vector<N>,
@@ -80,6 +101,8 @@ pub struct World<const N: usize> {
     pub(crate) bodies: Arena<Body<N>, BodyHandle>,
     pub(crate) joints: Arena<Joint<N>, JointHandle>,
     pub(crate) colliders: Vec<Option<Collider<N>>>,
+    /// One a collider.
+    pub(crate) motions: Vec<Motion>,
     pub(crate) free_colliders: Vec<u32>,
     /// Slots of half-space colliders, ascending.
     pub(crate) half_spaces: Vec<u32>,
@@ -149,6 +172,7 @@ impl<const N: usize> World<N> {
             bodies: Arena::new(),
             joints: Arena::new(),
             colliders: Vec::new(),
+            motions: Vec::new(),
             free_colliders: Vec::new(),
             half_spaces: Vec::new(),
             tree: DynamicTree::new(),
@@ -192,6 +216,7 @@ impl<const N: usize> World<N> {
         let Some(body) = self.bodies.at_mut(body_slot) else { return };
         let slot = self.free_colliders.pop().unwrap_or_else(|| {
             self.colliders.push(None);
+            self.motions.push(Motion { way: 0.0, speed: 0.0, awake: false });
             #[expect(clippy::cast_possible_truncation, reason = "fewer colliders than fit into memory")]
             let last = (self.colliders.len() - 1) as u32;
             last

@@ -10,6 +10,7 @@
 //! | `bodies` | the scaled velocities that rows work on |
 //! | `colours` | which contacts are solved side by side |
 //! | `contacts` | contact rows and the passes over them |
+//! | `pressed` | what contacts have done to each body, for warm starts |
 //! | `joints` | joint rows |
 //! | `turning` | gaps of bodies that turn far within the step |
 //! | `gyro` | free rotation of anisotropic bodies within the step |
@@ -21,6 +22,7 @@ mod contacts;
 mod gyro;
 mod joints;
 mod lanes;
+mod pressed;
 mod softness;
 mod turning;
 
@@ -30,7 +32,7 @@ use crate::BodyKind;
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::Joint;
-use crate::pairs::Pairs;
+use crate::pairs::{Contact, Pairs};
 use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
@@ -40,6 +42,7 @@ use gyro::Gyro;
 use joints::JointRows;
 use lanes::Lanes;
 pub(crate) use lanes::Real;
+use pressed::Pressed;
 use softness::Softness;
 use turning::Turning;
 
@@ -56,6 +59,7 @@ pub(crate) struct Solver<const N: usize> {
     contacts: ContactRows,
     joints: Vec<JointRows<N>>,
     turning: Turning<N>,
+    pressed: Pressed,
     arch: pulp::Arch,
 }
 
@@ -92,6 +96,7 @@ impl<const N: usize> Solver<N> {
             contacts: ContactRows::default(),
             joints: Vec::new(),
             turning: Turning::default(),
+            pressed: Pressed::default(),
             arch: pulp::Arch::new(),
         }
     }
@@ -162,16 +167,15 @@ impl<const N: usize> Solver<N> {
         self.active.clear();
         for (slot, pair) in input.pairs.slots().iter().enumerate() {
             let Some(pair) = pair else { continue };
-            let points = pair.manifold.points().len();
-            if points == 0 {
+            if pair.points == 0 {
                 continue;
             }
             let (Some(a), Some(b)) = (input.bodies.at(pair.body_a), input.bodies.at(pair.body_b)) else { continue };
             if a.is_moving() || b.is_moving() {
-                #[expect(clippy::cast_possible_truncation, reason = "slots and points are small")]
-                let (pair, points) = (slot as u32, points as u8);
+                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+                let slot = slot as u32;
                 let (body_a, body_b) = (a.solver_index, b.solver_index);
-                self.active.push(ActiveContact { pair, body_a, body_b, points });
+                self.active.push(ActiveContact { pair: slot, body_a, body_b, points: pair.points });
             }
         }
         let bodies = &self.bodies;
@@ -180,7 +184,7 @@ impl<const N: usize> Solver<N> {
 
     fn make_rows(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
-        let bounces = |pair: u32| input.pairs.get(pair).is_some_and(|pair| pair.restitution > 0.0);
+        let bounces = |pair: u32| input.pairs.get(pair).is_some_and(|pair| pair.bounces);
         self.contacts.allocate(&self.colours.groups, &self.active, bounces, &self.bodies);
         let prepare = Prepare {
             soft: Softness::new(tuning.contact_hz, tuning.contact_damping_ratio, h),
@@ -192,11 +196,25 @@ impl<const N: usize> Solver<N> {
                 if index == Group::EMPTY {
                     continue;
                 }
-                let contact = &active[index as usize];
-                let Some(pair) = pairs.get(contact.pair) else { continue };
-                let (a, b) = (side(bodies, contact.body_a), side(bodies, contact.body_b));
-                let (a, b) = (a.unwrap_or_else(|| resting_at(pair)), b.unwrap_or_else(|| resting_at(pair)));
-                prepare.fill(block, rows, lane, pair, &a, &b);
+                let active = &active[index as usize];
+                let Some(contact) = pairs.get(active.pair).and_then(|pair| pair.contact.as_deref()) else { continue };
+                let (a, b) = (side(bodies, active.body_a), side(bodies, active.body_b));
+                let (rest_a, rest_b);
+                let a = match a {
+                    Some(a) => a,
+                    None => {
+                        rest_a = resting_at(contact);
+                        &rest_a
+                    }
+                };
+                let b = match b {
+                    Some(b) => b,
+                    None => {
+                        rest_b = resting_at(contact);
+                        &rest_b
+                    }
+                };
+                prepare.fill(block, rows, lane, contact, a, b);
             }
         };
         let (blocks, rows) = (self.contacts.blocks.as_slice(), self.contacts.rows.as_mut_slice());
@@ -233,6 +251,7 @@ impl<const N: usize> Solver<N> {
         let joint_soft = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
         let arch = self.arch;
         self.turning.clear(self.bodies.len());
+        self.pressed.clear::<N>(self.bodies.len());
         for substep in 0..input.substeps {
             let mut times = pass_times(substep, h, tuning);
             self.damp(h * f64::from(substep + 1));
@@ -240,11 +259,17 @@ impl<const N: usize> Solver<N> {
                 joint.refresh(&self.bodies, &self.state, &times);
                 joint.warm_start(&self.bodies, &mut self.state);
             }
-            arch.dispatch(|| Passes::<N>::warm_start(&mut self.contacts, &mut self.state));
+            if substep == 0 {
+                let contacts = &mut self.contacts;
+                let pass = |state: &mut [Real]| arch.dispatch(|| Passes::<N>::warm_start(contacts, state));
+                self.pressed.watch::<N>(&mut self.state, pass);
+            } else {
+                self.pressed.warm_start::<N>(&mut self.state);
+            }
             for joint in &mut self.joints {
                 joint.solve(&self.bodies, &mut self.state, Some(&joint_soft));
             }
-            arch.dispatch(|| Passes::<N>::solve(&mut self.contacts, &mut self.state, &times));
+            self.solve_contacts(&times);
             self.move_bodies(h, h * f64::from(substep + 1));
             times = PassTimes { push: false, ..after_move(times, substep, h) };
             let rows = (&mut self.contacts, self.active.as_slice());
@@ -252,11 +277,17 @@ impl<const N: usize> Solver<N> {
             for joint in &mut self.joints {
                 joint.solve(&self.bodies, &mut self.state, None);
             }
-            arch.dispatch(|| Passes::<N>::solve(&mut self.contacts, &mut self.state, &times));
+            self.solve_contacts(&times);
             if substep + 1 == input.substeps {
                 arch.dispatch(|| Passes::<N>::bounce(&mut self.contacts, &mut self.state, &times));
             }
         }
+    }
+
+    fn solve_contacts(&mut self, times: &PassTimes) {
+        let (arch, contacts) = (self.arch, &mut self.contacts);
+        let pass = |state: &mut [Real]| arch.dispatch(|| Passes::<N>::solve(contacts, state, times));
+        self.pressed.watch::<N>(&mut self.state, pass);
     }
 
     /// Lets the velocities of damped bodies die away: v' = v/(1 + h·rate), base part included.
@@ -298,8 +329,9 @@ impl<const N: usize> Solver<N> {
                 if index == Group::EMPTY {
                     continue;
                 }
-                if let Some(pair) = input.pairs.get_mut(self.active[index as usize].pair) {
-                    contacts::store(block, rows, lane, pair);
+                let pair = input.pairs.get_mut(self.active[index as usize].pair);
+                if let Some(contact) = pair.and_then(|pair| pair.contact.as_deref_mut()) {
+                    contacts::store(block, rows, lane, contact);
                 }
             }
         }
@@ -329,23 +361,26 @@ fn fill_in_turn(blocks: &[Block], rows: &mut [Lanes], fill: &impl Fn(&Block, &mu
     let start = blocks.first().map_or(0, |block| block.start);
     for (index, block) in blocks.iter().enumerate() {
         let end = blocks.get(index + 1).map_or(start + rows.len(), |next| next.start);
-        fill(block, &mut rows[block.start - start..end - start]);
+        let rows = &mut rows[block.start - start..end - start];
+        // Zeroed here, where they are written next, for they may be more than the cache holds.
+        rows.fill(Lanes::ZERO);
+        fill(block, rows);
     }
 }
 
 /// The body of a row, or `None` for row 0.
-fn side<const N: usize>(bodies: &[SolverBody<N>], row: u32) -> Option<SolverBody<N>> {
-    (row != 0).then(|| bodies[row as usize])
+fn side<const N: usize>(bodies: &[SolverBody<N>], row: u32) -> Option<&SolverBody<N>> {
+    (row != 0).then(|| &bodies[row as usize])
 }
 
 /// A body that nothing moves, seen from one of its contacts: its offsets don't matter.
-fn resting_at<const N: usize>(pair: &crate::pairs::Pair<N>) -> SolverBody<N> {
+fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
     SolverBody {
         slot: u32::MAX,
         inverse_sqrt_mass: 0.0,
         frame: None,
         inverse_sqrt_moments: [0.0; bodies::MAX_PLANES],
-        centre: pair.manifold.points().first().map_or(Vector::ZERO, |point| point.position),
+        centre: contact.manifold.points().first().map_or(Vector::ZERO, |point| point.position),
         velocity: Vector::ZERO,
         angular_velocity: hyperbody_math::Bivector::ZERO,
         acceleration: Vector::ZERO,

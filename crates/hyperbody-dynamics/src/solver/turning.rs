@@ -62,12 +62,12 @@ impl<const N: usize> Turning<N> {
                 if self.place[a] == NONE && self.place[b] == NONE {
                     continue;
                 }
-                let Some(pair) = pairs.get(contact.pair) else { continue };
-                let normal = pair.manifold.normal;
-                for (point, k) in pair.manifold.points().iter().zip(0..) {
+                let Some(held) = pairs.get(contact.pair).and_then(|pair| pair.contact.as_deref()) else { continue };
+                let normal = held.manifold.normal;
+                for (point, k) in held.manifold.points().iter().zip(0..) {
                     // Round surfaces roll over their contact; what turns with the body is the core below.
-                    let below = normal * (0.5 * point.separation + pair.radii.0);
-                    let above = normal * (0.5 * point.separation + pair.radii.1);
+                    let below = normal * (0.5 * point.separation + held.radii.0);
+                    let above = normal * (0.5 * point.separation + held.radii.1);
                     let arc_a = self.arc(a, point.position - below - bodies[a].centre);
                     let arc_b = self.arc(b, point.position + above - bodies[b].centre);
                     let at = start + k * Layout::<N>::POINT_ROW + Layout::<N>::POINT_ARC;

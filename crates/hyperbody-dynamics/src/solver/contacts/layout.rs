@@ -3,8 +3,8 @@
 use super::Block;
 use crate::solver::bodies::Sizes;
 
-/// Positions, in lanes, inside a block: header, sliding rows, their mass matrix, twisting rows, normal rows,
-/// and the response matrix of those.
+/// Positions, in lanes, inside a block: header, sliding rows, their mass matrix, twisting rows, the field of the normal
+/// rows, the points, and the response matrix of those.
 pub(crate) struct Layout<const N: usize>;
 
 impl<const N: usize> Layout<N> {
@@ -46,22 +46,38 @@ impl<const N: usize> Layout<N> {
     pub(crate) const TWIST_IMPULSE: usize = 2 * Self::K + 2;
     pub(crate) const TWIST_ROW: usize = 2 * Self::K + 3;
 
-    // A normal row: arms, gap at the start of the step, base velocity and acceleration along the normal, impulse,
-    // sum of the impulses of the step's substeps, what turning adds to the gap, place in the tangent space from the centre of friction.
-    pub(crate) const POINT_ARM_A: usize = 0;
-    pub(crate) const POINT_GAP: usize = 2 * Self::K;
-    pub(crate) const POINT_VELOCITY: usize = 2 * Self::K + 1;
-    pub(crate) const POINT_ACCELERATION: usize = 2 * Self::K + 2;
-    pub(crate) const POINT_IMPULSE: usize = 2 * Self::K + 3;
-    pub(crate) const POINT_STEP_IMPULSE: usize = 2 * Self::K + 4;
-    pub(crate) const POINT_ARC: usize = 2 * Self::K + 5;
-    pub(crate) const POINT_LEVER: usize = 2 * Self::K + 6;
-    pub(crate) const POINT_ROW: usize = 2 * Self::K + 6 + Self::SLIDES;
+    // A row of the normal field: arms, base velocity and acceleration. What a normal row measures is affine in the place of
+    // its point in the tangent space (what the point's height adds, (n ∧ n), is nothing), so the field's values at the
+    // centre of friction and its slopes along the N − 1 tangents stand for the rows of all points.
+    pub(crate) const FIELD_VELOCITY: usize = 2 * Self::K;
+    pub(crate) const FIELD_ACCELERATION: usize = 2 * Self::K + 1;
+    pub(crate) const FIELD_ROW: usize = 2 * Self::K + 2;
 
-    /// First normal row.
+    // A point: gap at the start of the step, impulse, sum of the impulses of the step's substeps, what turning adds to the
+    // gap, place in the tangent space from the centre of friction.
+    pub(crate) const POINT_GAP: usize = 0;
+    pub(crate) const POINT_IMPULSE: usize = 1;
+    pub(crate) const POINT_STEP_IMPULSE: usize = 2;
+    pub(crate) const POINT_ARC: usize = 3;
+    pub(crate) const POINT_LEVER: usize = 4;
+    pub(crate) const POINT_ROW: usize = 4 + Self::SLIDES;
+
+    /// First row of the normal field.
+    #[inline(always)]
+    pub(crate) fn field_start(block: &Block) -> usize {
+        Self::TWIST_ROWS + block.twists * Self::TWIST_ROW
+    }
+
+    /// Rows of the normal field: a single point stands at the centre.
+    #[inline(always)]
+    pub(crate) fn field_rows(block: &Block) -> usize {
+        if block.points > 1 { N } else { 1 }
+    }
+
+    /// First point.
     #[inline(always)]
     pub(crate) fn points_start(block: &Block) -> usize {
-        Self::TWIST_ROWS + block.twists * Self::TWIST_ROW
+        Self::field_start(block) + Self::field_rows(block) * Self::FIELD_ROW
     }
 
     /// First of the response matrix of the normal rows, upper triangle by rows.

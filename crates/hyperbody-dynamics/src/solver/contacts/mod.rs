@@ -48,7 +48,7 @@ pub(crate) struct ContactRows {
 }
 
 impl ContactRows {
-    /// Makes room for the groups; rows are zero.
+    /// Makes room for the groups; what the rows hold is left over from the last step.
     pub(crate) fn allocate<const N: usize>(
         &mut self,
         groups: &[Group],
@@ -84,7 +84,6 @@ impl ContactRows {
             start += Layout::<N>::block_len(&block);
             self.blocks.push(block);
         }
-        self.rows.clear();
         self.rows.resize(start, Lanes::ZERO);
     }
 }

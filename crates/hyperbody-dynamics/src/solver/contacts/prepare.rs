@@ -4,7 +4,7 @@ use hyperbody_math::{Bivector, Vector};
 
 use super::normal::upper;
 use super::{Block, Layout};
-use crate::pairs::Pair;
+use crate::pairs::Contact;
 use crate::solver::bodies::{MAX_PLANES, Sizes, SolverBody};
 use crate::solver::lanes::{Lanes, Real};
 use crate::solver::softness::Softness;
@@ -39,30 +39,31 @@ struct Offsets<const N: usize> {
 }
 
 impl Prepare {
-    /// Fills one lane of a block from a pair's manifold and warm start.
+    /// Fills one lane of a block from a contact's manifold and warm start.
     pub(crate) fn fill<const N: usize>(
         &self,
         block: &Block,
         rows: &mut [Lanes],
         lane: usize,
-        pair: &Pair<N>,
+        contact: &Contact<N>,
         a: &SolverBody<N>,
         b: &SolverBody<N>,
     ) {
         let mut lane = Lane { rows, lane, a, b };
         let both_move = a.inverse_sqrt_mass > 0.0 && b.inverse_sqrt_mass > 0.0;
-        lane.header(pair, if both_move { &self.soft } else { &self.stiff });
-        let points = pair.manifold.points();
+        lane.header(contact, if both_move { &self.soft } else { &self.stiff });
+        let points = contact.manifold.points();
         let mut centre = Vector::ZERO;
         for point in points {
             centre += point.position * (1.0 / points.len() as f64);
         }
-        let tangents = pair.manifold.normal.orthonormal_complement();
-        lane.sliding(pair, centre, &tangents);
+        let tangents = contact.manifold.normal.orthonormal_complement();
+        lane.sliding(contact, centre, &tangents);
         if block.twists > 0 {
-            lane.twisting(pair, &tangents);
+            lane.twisting(contact, &tangents);
         }
-        lane.points(pair, centre, &tangents, block);
+        lane.field(contact.manifold.normal, centre, &tangents, block);
+        lane.points(contact, centre, &tangents, block);
     }
 }
 
@@ -103,23 +104,23 @@ impl<const N: usize> Lane<'_, N> {
         self.a.inverse_sqrt_mass * self.a.inverse_sqrt_mass + self.b.inverse_sqrt_mass * self.b.inverse_sqrt_mass
     }
 
-    fn header(&mut self, pair: &Pair<N>, softness: &Softness) {
+    fn header(&mut self, contact: &Contact<N>, softness: &Softness) {
         self.set(Layout::<N>::INVERSE_SQRT_MASS_A, self.a.inverse_sqrt_mass);
         self.set(Layout::<N>::INVERSE_SQRT_MASS_B, self.b.inverse_sqrt_mass);
-        self.set(Layout::<N>::FRICTION, pair.friction);
-        self.set(Layout::<N>::RESTITUTION, pair.restitution);
+        self.set(Layout::<N>::FRICTION, contact.friction);
+        self.set(Layout::<N>::RESTITUTION, contact.restitution);
         self.set(Layout::<N>::BIAS_RATE, softness.bias_rate);
         // The spring is the manifold's, shared evenly by its points: a patch is as stiff with sixteen corners as with one.
-        let share = self.inverse_mass_sum() * pair.manifold.points().len() as f64;
+        let share = self.inverse_mass_sum() * contact.manifold.points().len() as f64;
         let softness_share = (softness.impulse_scale / softness.mass_scale).max(RIGID_SHARE);
         self.set(Layout::<N>::SOFTNESS, share * softness_share);
         self.set(Layout::<N>::STIFFENER, share * RIGID_SHARE);
         for i in 0..N {
-            self.set(Layout::<N>::NORMAL + i, pair.manifold.normal[i]);
+            self.set(Layout::<N>::NORMAL + i, contact.manifold.normal[i]);
         }
     }
 
-    fn sliding(&mut self, pair: &Pair<N>, centre: Vector<N>, tangents: &[Vector<N>; N]) {
+    fn sliding(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N]) {
         let r = self.offsets(centre);
         let (velocity, acceleration) = self.base_motion(r);
         let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); N];
@@ -133,7 +134,7 @@ impl<const N: usize> Lane<'_, N> {
             self.set_arms(at + Layout::<N>::SLIDE_ARM_A, &arms[t].0, &arms[t].1);
             self.set(at + Layout::<N>::SLIDE_VELOCITY, velocity.dot(tangent));
             self.set(at + Layout::<N>::SLIDE_ACCELERATION, acceleration.dot(tangent));
-            self.set(at + Layout::<N>::SLIDE_IMPULSE, pair.friction_impulse.dot(tangent));
+            self.set(at + Layout::<N>::SLIDE_IMPULSE, contact.friction_impulse.dot(tangent));
         }
         self.sliding_mass(&arms);
     }
@@ -165,7 +166,7 @@ impl<const N: usize> Lane<'_, N> {
     /// Twisting rows are the planes of the tangent space; their bivectors are orthonormal. One mass serves them all: the
     /// inverse of a bound on the largest eigenvalue of their response matrix, mean + deviation·√(k−1) (H. Wolkowicz and
     /// G. P. H. Styan, 1980), exact for isotropic bodies, safe for others, and the same for every choice of tangents.
-    fn twisting(&mut self, pair: &Pair<N>, tangents: &[Vector<N>; N]) {
+    fn twisting(&mut self, contact: &Contact<N>, tangents: &[Vector<N>; N]) {
         let spin = self.b.angular_velocity - self.a.angular_velocity;
         let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
         let mut row = 0;
@@ -177,7 +178,7 @@ impl<const N: usize> Lane<'_, N> {
                 self.set_arms(at + Layout::<N>::TWIST_ARM_A, &arms.0, &arms.1);
                 self.set(at + Layout::<N>::TWIST_VELOCITY, spin.dot(&plane));
                 self.set(at + Layout::<N>::TWIST_ACCELERATION, spin_up.dot(&plane));
-                self.set(at + Layout::<N>::TWIST_IMPULSE, pair.twist_impulse.dot(&plane));
+                self.set(at + Layout::<N>::TWIST_IMPULSE, contact.twist_impulse.dot(&plane));
                 row += 1;
             }
         }
@@ -197,60 +198,95 @@ impl<const N: usize> Lane<'_, N> {
         self.set(Layout::<N>::TWIST_MASS, if largest > 0.0 { 1.0 / largest } else { 0.0 });
     }
 
-    fn points(&mut self, pair: &Pair<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
-        let normal = pair.manifold.normal;
-        let points = pair.manifold.points();
+    /// The field of the normal rows: at the centre, and along the tangents.
+    fn field(&mut self, normal: Vector<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
+        let r = self.offsets(centre);
+        let (velocity, acceleration) = self.base_motion(r);
+        let start = Layout::<N>::field_start(block);
+        self.set_arms(start, &self.a.arm(r.a, normal), &self.b.arm(r.b, normal));
+        self.set(start + Layout::<N>::FIELD_VELOCITY, velocity.dot(normal));
+        self.set(start + Layout::<N>::FIELD_ACCELERATION, acceleration.dot(normal));
+        let spin = self.b.angular_velocity - self.a.angular_velocity;
+        let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
+        for t in 1..Layout::<N>::field_rows(block) {
+            let at = start + t * Layout::<N>::FIELD_ROW;
+            let tangent = tangents[t - 1];
+            self.set_arms(at, &self.a.arm(tangent, normal), &self.b.arm(tangent, normal));
+            self.set(at + Layout::<N>::FIELD_VELOCITY, spin.act_on(tangent).dot(normal));
+            self.set(at + Layout::<N>::FIELD_ACCELERATION, spin_up.act_on(tangent).dot(normal));
+        }
+    }
+
+    fn points(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
+        let points = contact.manifold.points();
         for (index, point) in points.iter().enumerate() {
             let at = Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW;
-            let r = self.offsets(point.position);
-            let (velocity, acceleration) = self.base_motion(r);
-            let (arm_a, arm_b) = (self.a.arm(r.a, normal), self.b.arm(r.b, normal));
-            self.set_arms(at + Layout::<N>::POINT_ARM_A, &arm_a, &arm_b);
             self.set(at + Layout::<N>::POINT_GAP, point.separation);
-            self.set(at + Layout::<N>::POINT_VELOCITY, velocity.dot(normal));
-            self.set(at + Layout::<N>::POINT_ACCELERATION, acceleration.dot(normal));
-            self.set(at + Layout::<N>::POINT_IMPULSE, f64::from(pair.normal_impulses[index]));
+            self.set(at + Layout::<N>::POINT_IMPULSE, f64::from(contact.normal_impulses[index]));
             for t in 0..Layout::<N>::SLIDES {
                 self.set(at + Layout::<N>::POINT_LEVER + t, (point.position - centre).dot(tangents[t]));
             }
         }
+        self.responses(points.len(), block);
+    }
+
+    /// Responses of the points to each other, L G Lᵀ with L the places of the points and G the responses of the field.
+    fn responses(&mut self, points: usize, block: &Block) {
+        let rows = Layout::<N>::field_rows(block);
+        let field = |t: usize| Layout::<N>::field_start(block) + t * Layout::<N>::FIELD_ROW;
+        let mut g = [[0.0; N]; N];
+        for s in 0..rows {
+            for t in s..rows {
+                g[s][t] = self.response_of_arms(field(s), field(t));
+                g[t][s] = g[s][t];
+            }
+        }
+        g[0][0] += self.inverse_mass_sum();
         let start = Layout::<N>::response_start(block);
-        let row = |index: usize| Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW;
-        for i in 0..points.len() {
-            for j in i..points.len() {
-                let response = self.inverse_mass_sum() + self.response_of_arms(row(i), row(j));
+        for i in 0..points {
+            let place = self.place(i, block);
+            let to_place: [f64; N] = std::array::from_fn(|t| (0..rows).map(|s| place[s] * g[s][t]).sum());
+            for j in i..points {
+                let other = self.place(j, block);
+                let response: f64 = (0..rows).map(|t| to_place[t] * other[t]).sum();
                 self.set(start + upper(block.points, i, j), response);
             }
         }
     }
+
+    /// Weights of the rows of the field at a point: one, and its place along the tangents.
+    fn place(&self, index: usize, block: &Block) -> [f64; N] {
+        let at = Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_LEVER;
+        std::array::from_fn(|t| if t == 0 { 1.0 } else { f64::from(self.rows[at + t - 1].0[self.lane]) })
+    }
 }
 
-/// Stores the impulses of one lane in its pair, to warm-start the next step.
-pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, pair: &mut Pair<N>) {
-    let tangents = pair.manifold.normal.orthonormal_complement();
+/// Stores the impulses of one lane in its contact, to warm-start the next step.
+pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, contact: &mut Contact<N>) {
+    let tangents = contact.manifold.normal.orthonormal_complement();
     let value = |position: usize| f64::from(rows[position].0[lane]);
-    pair.friction_impulse = Vector::ZERO;
+    contact.friction_impulse = Vector::ZERO;
     for (t, &tangent) in tangents.iter().enumerate().take(Layout::<N>::SLIDES) {
         let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW + Layout::<N>::SLIDE_IMPULSE;
-        pair.friction_impulse += tangent * value(at);
+        contact.friction_impulse += tangent * value(at);
     }
-    pair.twist_impulse = Bivector::ZERO;
+    contact.twist_impulse = Bivector::ZERO;
     if block.twists > 0 {
         let mut row = 0;
         for s in 0..Layout::<N>::SLIDES {
             for t in s + 1..Layout::<N>::SLIDES {
                 let at = Layout::<N>::TWIST_ROWS + row * Layout::<N>::TWIST_ROW + Layout::<N>::TWIST_IMPULSE;
-                pair.twist_impulse += Bivector::wedge(tangents[s], tangents[t]) * value(at);
+                contact.twist_impulse += Bivector::wedge(tangents[s], tangents[t]) * value(at);
                 row += 1;
             }
         }
     }
     let start = Layout::<N>::points_start(block);
-    for index in 0..pair.manifold.points().len() {
+    for index in 0..contact.manifold.points().len() {
         let at = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_IMPULSE;
-        pair.normal_impulses[index] = rows[at].0[lane];
+        contact.normal_impulses[index] = rows[at].0[lane];
         let total = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_STEP_IMPULSE;
-        pair.step_impulses[index] = rows[total].0[lane];
+        contact.step_impulses[index] = rows[total].0[lane];
     }
 }
 

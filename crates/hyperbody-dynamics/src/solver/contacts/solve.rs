@@ -45,18 +45,17 @@ impl<const N: usize> Passes<N> {
                 p.apply_linear(&row[..N], impulse);
                 p.apply_angular(&row[N..N + 2 * Self::K], impulse);
             }
-            let points_start = Layout::<N>::points_start(block);
-            for row in rows[Layout::<N>::TWIST_ROWS..points_start].chunks_exact(Layout::<N>::TWIST_ROW) {
+            let (field_start, points_start) = (Layout::<N>::field_start(block), Layout::<N>::points_start(block));
+            for row in rows[Layout::<N>::TWIST_ROWS..field_start].chunks_exact(Layout::<N>::TWIST_ROW) {
                 p.apply_angular(&row[..2 * Self::K], row[Layout::<N>::TWIST_IMPULSE]);
             }
-            let normal = &rows[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
-            let mut sum = Lanes::ZERO;
-            for row in rows[points_start..Layout::<N>::response_start(block)].chunks_exact(Layout::<N>::POINT_ROW) {
-                let impulse = row[Layout::<N>::POINT_IMPULSE];
-                sum += impulse;
-                p.apply_angular(&row[..2 * Self::K], impulse);
+            let (head, points) = rows.split_at(points_start);
+            let mut sum = [Lanes::ZERO; N];
+            let end = block.points * Layout::<N>::POINT_ROW;
+            for row in points[..end].chunks_exact(Layout::<N>::POINT_ROW) {
+                add_at(&mut sum, row[Layout::<N>::POINT_IMPULSE], &row[Layout::<N>::POINT_LEVER..]);
             }
-            p.apply_linear(normal, sum);
+            Self::apply_to_field(block, head, &sum, &mut p);
             p.scatter(block, state);
         }
     }
@@ -76,7 +75,7 @@ impl<const N: usize> Passes<N> {
             if times.push {
                 Self::rub(block, head, points, &mut p, times);
             }
-            Self::pose(head, points, &p, times, &displacement, problem);
+            Self::pose(block, head, points, &p, times, &displacement, problem);
             Self::press(block, head, points, response, &mut p, problem);
             if !times.push {
                 for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
@@ -149,7 +148,8 @@ impl<const N: usize> Passes<N> {
     fn twist(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
         let (friction, mass) = (head[Layout::<N>::FRICTION], head[Layout::<N>::TWIST_MASS]);
         let elapsed = Lanes::splat(times.elapsed);
-        let rows = &mut head[Layout::<N>::TWIST_ROWS..];
+        let rows =
+            &mut head[Layout::<N>::TWIST_ROWS..Layout::<N>::TWIST_ROWS + Layout::<N>::TWISTS * Layout::<N>::TWIST_ROW];
         let mut wanted = [Lanes::ZERO; MAX];
         let mut largest = Lanes::splat(Real::MIN_POSITIVE);
         for (t, row) in rows.chunks_exact(Layout::<N>::TWIST_ROW).enumerate() {
@@ -206,6 +206,7 @@ impl<const N: usize> Passes<N> {
     /// Poses the problem of a block's normal rows.
     #[inline(always)]
     fn pose(
+        block: &Block,
         head: &[Lanes],
         points: &[Lanes],
         p: &Pairing<N>,
@@ -222,25 +223,39 @@ impl<const N: usize> Passes<N> {
             if times.push { (head[Layout::<N>::BIAS_RATE], head[Layout::<N>::SOFTNESS]) } else { (zero, zero) };
         let slop = Lanes::splat(times.slop);
         let push_limit = Lanes::splat(-times.push_out_speed);
-        let linear_gap = displacement.measure_linear(normal);
-        let linear_velocity = p.measure_linear(normal);
+        let (mut closed, mut velocities) = ([zero; N], [zero; N]);
+        for (t, row) in Self::field(block, head).enumerate() {
+            let (velocity, acceleration) = (row[Layout::<N>::FIELD_VELOCITY], row[Layout::<N>::FIELD_ACCELERATION]);
+            closed[t] = moved * velocity + moved_sq * acceleration + displacement.measure_angular(row);
+            velocities[t] = velocity + elapsed * acceleration + p.measure_angular(row);
+        }
+        closed[0] += displacement.measure_linear(normal);
+        velocities[0] += p.measure_linear(normal);
         for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
-            let gap = row[Layout::<N>::POINT_GAP]
-                + row[Layout::<N>::POINT_ARC]
-                + moved * row[Layout::<N>::POINT_VELOCITY]
-                + moved_sq * row[Layout::<N>::POINT_ACCELERATION]
-                + linear_gap
-                + displacement.measure_angular(&row[..2 * Self::K]);
-            let velocity = row[Layout::<N>::POINT_VELOCITY]
-                + elapsed * row[Layout::<N>::POINT_ACCELERATION]
-                + linear_velocity
-                + p.measure_angular(&row[..2 * Self::K]);
+            let lever = &row[Layout::<N>::POINT_LEVER..];
+            let gap = row[Layout::<N>::POINT_GAP] + row[Layout::<N>::POINT_ARC] + value_at(&closed, lever);
+            let velocity = value_at(&velocities, lever);
             // Ahead of touching: approach may close the gap within the substep. Overlapping: pushed apart softly.
             let overlap = (gap + slop).min(zero);
             let bias = gap.select_positive(gap * inverse_h, (bias_rate * overlap).max(push_limit));
             problem.excess[index] = velocity + bias;
             problem.softness[index] = gap.select_positive(zero, softness);
         }
+    }
+
+    /// The rows of the normal field.
+    #[inline(always)]
+    fn field<'a>(block: &Block, head: &'a [Lanes]) -> std::slice::ChunksExact<'a, Lanes> {
+        head[Layout::<N>::field_start(block)..].chunks_exact(Layout::<N>::FIELD_ROW)
+    }
+
+    /// Applies impulses along the normal: their sum, and their moments along the tangents.
+    #[inline(always)]
+    fn apply_to_field(block: &Block, head: &[Lanes], sum: &[Lanes; N], p: &mut Pairing<N>) {
+        for (row, impulse) in Self::field(block, head).zip(sum) {
+            p.apply_angular(row, *impulse);
+        }
+        p.apply_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N], sum[0]);
     }
 
     /// Solves it and applies the change of impulses.
@@ -260,20 +275,24 @@ impl<const N: usize> Passes<N> {
             problem.allowed[index] = response[upper(block.points, index, index)].select_positive(one, zero);
         }
         problem.solve(response, block.points, head[Layout::<N>::STIFFENER]);
-        Self::apply_solution(head, points, p, problem);
+        Self::apply_solution(block, head, points, p, problem);
     }
 
     #[inline(always)]
-    fn apply_solution(head: &[Lanes], points: &mut [Lanes], p: &mut Pairing<N>, problem: &NormalProblem) {
-        let mut sum = Lanes::ZERO;
+    fn apply_solution(
+        block: &Block,
+        head: &[Lanes],
+        points: &mut [Lanes],
+        p: &mut Pairing<N>,
+        problem: &NormalProblem,
+    ) {
+        let mut sum = [Lanes::ZERO; N];
         for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
             let impulse = problem.impulse[index];
             row[Layout::<N>::POINT_IMPULSE] = impulse;
-            let change = impulse - problem.held[index];
-            sum += change;
-            p.apply_angular(&row[..2 * Self::K], change);
+            add_at(&mut sum, impulse - problem.held[index], &row[Layout::<N>::POINT_LEVER..]);
         }
-        p.apply_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N], sum);
+        Self::apply_to_field(block, head, &sum, p);
     }
 
     /// Gives back the share e of the approach speed at points that were pressed in this step.
@@ -288,19 +307,23 @@ impl<const N: usize> Passes<N> {
             let mut p = Pairing::<N>::gather(block, rows, state);
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
             let (points, response) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
-            let linear_velocity = p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
             let restitution = head[Layout::<N>::RESTITUTION];
+            let (mut starts, mut accelerations, mut changes) = ([zero; N], [zero; N], [zero; N]);
+            for (t, row) in Self::field(block, head).enumerate() {
+                starts[t] = row[Layout::<N>::FIELD_VELOCITY];
+                accelerations[t] = row[Layout::<N>::FIELD_ACCELERATION];
+                changes[t] = p.measure_angular(row);
+            }
+            changes[0] += p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
             for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
-                let at_start = row[Layout::<N>::POINT_VELOCITY];
+                let lever = &row[Layout::<N>::POINT_LEVER..];
+                let (at_start, acceleration) = (value_at(&starts, lever), value_at(&accelerations, lever));
                 // Between the start of the step and the touch the body falls on; without this, a ball that gives back all
                 // of its speed would lose what it gained over that gap at every bounce.
                 let gap = row[Layout::<N>::POINT_GAP].max(zero);
-                let gained = Lanes::splat(-2.0) * row[Layout::<N>::POINT_ACCELERATION] * gap;
+                let gained = Lanes::splat(-2.0) * acceleration * gap;
                 let approach = -(at_start * at_start + gained).max(zero).sqrt();
-                let velocity = at_start
-                    + elapsed * row[Layout::<N>::POINT_ACCELERATION]
-                    + linear_velocity
-                    + p.measure_angular(&row[..2 * Self::K]);
+                let velocity = at_start + elapsed * acceleration + value_at(&changes, lever);
                 let fast = (threshold - at_start).select_positive(restitution, zero);
                 problem.excess[index] = velocity + fast * approach;
                 problem.softness[index] = zero;
@@ -318,8 +341,27 @@ impl<const N: usize> Passes<N> {
             for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
                 row[Layout::<N>::POINT_STEP_IMPULSE] += problem.impulse[index] - problem.held[index];
             }
-            Self::apply_solution(head, points, &mut p, problem);
+            Self::apply_solution(block, head, points, &mut p, problem);
             p.scatter(block, state);
         }
+    }
+}
+
+/// Value of an affine field at a place along the tangents: its value at the centre, and its slopes.
+#[inline(always)]
+fn value_at<const N: usize>(field: &[Lanes; N], place: &[Lanes]) -> Lanes {
+    let mut value = field[0];
+    for (slope, along) in field[1..].iter().zip(place) {
+        value += *slope * *along;
+    }
+    value
+}
+
+/// Adds an impulse at a place to a sum of impulses and their moments along the tangents.
+#[inline(always)]
+fn add_at<const N: usize>(sum: &mut [Lanes; N], impulse: Lanes, place: &[Lanes]) {
+    sum[0] += impulse;
+    for (moment, along) in sum[1..].iter_mut().zip(place) {
+        *moment += impulse * *along;
     }
 }
