@@ -4,6 +4,8 @@ mod bench;
 mod figures;
 mod hashes;
 mod pictures;
+mod play;
+mod playground;
 mod process;
 mod scenes;
 mod test;
@@ -30,6 +32,8 @@ enum Chore {
     Test(test::TestArguments),
     /// Times the built-in scenes (or others) and saves the figures under target/bench, with machine and commit
     Bench(bench::BenchArguments),
+    /// Builds the playground (engine, page, program) and starts it
+    Play(play::PlayArguments),
     /// Draws the pictures of the README and of the gallery page from the built-in scenes
     Pictures(pictures::PicturesArguments),
     /// Writes the files that are generated from the built-in scenes
@@ -42,6 +46,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().chore {
         Chore::Test(arguments) => test::run(&arguments),
         Chore::Bench(arguments) => bench::run(&arguments),
+        Chore::Play(arguments) => play::run(&arguments),
         Chore::Pictures(arguments) => pictures::run(&arguments),
         Chore::Scenes(arguments) => scenes::run(&arguments),
         Chore::Figures(arguments) => figures::run(&arguments),

@@ -46,7 +46,7 @@ fn tier(name: &str) -> Option<usize> {
 #[test]
 fn every_crate_has_a_tier() {
     let (names, _) = arrows();
-    for name in names.iter().filter(|name| *name != "xtask") {
+    for name in names.iter().filter(|name| !name.starts_with("xtask")) {
         assert!(tier(name).is_some(), "{name} stands in no tier: add it here and to ARCHITECTURE.md");
     }
     assert!(names.len() > 6, "cargo metadata lists the workspace, got {names:?}");

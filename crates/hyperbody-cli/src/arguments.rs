@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::play::PlayArguments;
 use crate::render::arguments::RenderArguments;
 use crate::slice::SliceArguments;
 use crate::spin::SpinArguments;
@@ -17,6 +18,7 @@ pub(crate) const MAX_STEPS: u32 = 10_000_000;
     name = "hyperbody",
     version,
     after_help = "Start with:\n  \
+        hyperbody play                       the fourth dimension in a browser, to take into the hand\n  \
         hyperbody scenes                     what there is to see\n  \
         hyperbody run stack4d                ten tesseracts on each other, for ten seconds\n  \
         hyperbody render dice4d -o dice.png  a picture of it\n  \
@@ -30,6 +32,8 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Serves the playground on this machine and opens it in a browser
+    Play(PlayArguments),
     /// Simulates a scene and says where everything ended up
     Run(RunArguments),
     /// Draws a scene or a recording: a slice of it as a picture, a film or a sheet of pictures

@@ -9,6 +9,7 @@ mod failure;
 mod files;
 mod inspect;
 mod output;
+mod play;
 mod progress;
 mod render;
 mod run;
@@ -26,6 +27,7 @@ use arguments::{Arguments, Command};
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
+        Command::Play(arguments) => play::play(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Render(arguments) => render::render(&arguments),
         Command::Inspect(arguments) => inspect::inspect(&arguments),

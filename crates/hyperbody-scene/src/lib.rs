@@ -10,6 +10,7 @@
 //! | `build` | [`Scene`] to world |
 //! | `world` | [`AnyWorld`]: a world of two to six dimensions |
 //! | `shape_file` | [`ShapeFile`]: a shape in a file of its own |
+//! | `definitions` | worlds and bodies for programs that change a running world |
 //! | `dimension` | [`visit_dimension`]: the one `match` that turns a number into a type |
 //! | `gallery` | the built-in scenes |
 //! | `carry` | [`Scene::carry_files`]: a scene without the files beside it |
@@ -21,6 +22,7 @@
 
 mod build;
 mod carry;
+mod definitions;
 mod dimension;
 mod error;
 mod gallery;

@@ -106,7 +106,7 @@ fn names(scene: &Scene) -> Result<BTreeMap<String, usize>> {
     Ok(indices)
 }
 
-fn materials(scene: &Scene) -> Result<BTreeMap<&str, Material>> {
+pub(crate) fn materials(scene: &Scene) -> Result<BTreeMap<&str, Material>> {
     let mut materials = BTreeMap::from([("default", Material::default())]);
     let mut seen = BTreeMap::new();
     for (index, named) in scene.materials.iter().enumerate() {
@@ -132,7 +132,7 @@ fn materials(scene: &Scene) -> Result<BTreeMap<&str, Material>> {
     Ok(materials)
 }
 
-fn body_def<const N: usize>(
+pub(crate) fn body_def<const N: usize>(
     body: &Body,
     path: &str,
     materials: &BTreeMap<&str, Material>,

@@ -1,0 +1,140 @@
+//! A small web server for one page on one machine.
+//!
+//! The headers let the page share memory with its workers, which browsers allow only to pages that let nothing of others in.
+
+use std::net::IpAddr;
+use std::sync::Arc;
+use std::thread;
+
+use tiny_http::{Header, Method, Request, Response, StatusCode};
+
+use super::site::{Content, Site, plain};
+use crate::failure::Failure;
+
+/// Requests that are answered at once: a browser asks for some six files together.
+const THREADS: usize = 6;
+
+/// A server that listens.
+pub(crate) struct Server {
+    http: Arc<tiny_http::Server>,
+    host: IpAddr,
+}
+
+impl Server {
+    /// Listens on a port; on `usual` if none is wanted, or on any that is free if that is taken.
+    pub(crate) fn start(host: IpAddr, port: Option<u16>, usual: u16) -> Result<Self, Failure> {
+        let listen = |port: u16| tiny_http::Server::http((host, port));
+        let http = listen(port.unwrap_or(usual)).or_else(|error| if port.is_none() { listen(0) } else { Err(error) });
+        let http = http.map_err(|error| {
+            let port = port.unwrap_or(usual);
+            Failure::Work(format!(
+                "cannot serve on {host} port {port}: {error}; another program may have it: choose another with --port, \
+                 or --port 0 for any that is free"
+            ))
+        })?;
+        Ok(Self { http: Arc::new(http), host })
+    }
+
+    /// The address to open, without a slash at its end.
+    pub(crate) fn address(&self) -> String {
+        let port = self.http.server_addr().to_ip().map_or(0, |address| address.port());
+        match self.host {
+            IpAddr::V6(host) => format!("http://[{host}]:{port}"),
+            IpAddr::V4(host) => format!("http://{host}:{port}"),
+        }
+    }
+
+    /// Answers requests until the program is ended.
+    pub(crate) fn serve(&self, site: &Site) -> Result<(), Failure> {
+        thread::scope(|scope| {
+            for _ in 0..THREADS {
+                scope.spawn(|| {
+                    while let Ok(request) = self.http.recv() {
+                        answer(request, site);
+                    }
+                });
+            }
+        });
+        Err(Failure::Work("the server has stopped".to_owned()))
+    }
+}
+
+fn answer(request: Request, site: &Site) {
+    let response = match request.method() {
+        Method::Get | Method::Head => {
+            let path = request.url().split(['?', '#']).next().unwrap_or("").trim_start_matches('/');
+            match (site.way(path), site.file(path)) {
+                (Some(way), _) => header(("Location", way)).into_iter().fold(text(302, ""), Response::with_header),
+                (None, Some(content)) => file(path, content, accepts_gzip(&request)),
+                (None, None) => text(404, "There is no such file here."),
+            }
+        }
+        _ => text(405, "This server only hands out files."),
+    };
+    // A browser that has gone away is nobody's fault.
+    let _ = request.respond(response);
+}
+
+type Answer = Response<std::io::Cursor<Vec<u8>>>;
+
+fn file(path: &str, content: Content, gzip: bool) -> Answer {
+    let Content { compressed, bytes, immutable } = content;
+    let sends_gzip = compressed && gzip;
+    let Ok(bytes) = plain(compressed && !gzip, &bytes) else { return text(500, "This file is damaged.") };
+    let caching = if immutable { "public, max-age=31536000, immutable" } else { "no-cache" };
+    let mut response = Response::from_data(bytes);
+    let mut headers = vec![("Content-Type", mime_type(path)), ("Cache-Control", caching), ("Vary", "Accept-Encoding")];
+    if sends_gzip {
+        headers.push(("Content-Encoding", "gzip"));
+    }
+    headers.extend(ISOLATION);
+    for header in headers.into_iter().filter_map(header) {
+        response.add_header(header);
+    }
+    // Sizes are known; without this, long answers come in chunks.
+    response.with_chunked_threshold(usize::MAX)
+}
+
+/// What lets a page share memory with its workers, and keeps browsers from guessing types.
+const ISOLATION: [(&str, &str); 4] = [
+    ("Cross-Origin-Opener-Policy", "same-origin"),
+    ("Cross-Origin-Embedder-Policy", "require-corp"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    ("X-Content-Type-Options", "nosniff"),
+];
+
+fn text(status: u16, message: &str) -> Answer {
+    let response = Response::from_string(message).with_status_code(StatusCode(status));
+    ISOLATION.into_iter().filter_map(header).fold(response, Response::with_header)
+}
+
+fn header((name, value): (&str, &str)) -> Option<Header> {
+    Header::from_bytes(name, value).ok()
+}
+
+fn accepts_gzip(request: &Request) -> bool {
+    let mut encodings = request.headers().iter().filter(|header| header.field.equiv("Accept-Encoding"));
+    encodings.any(|header| header.value.as_str().contains("gzip"))
+}
+
+/// By the end of a name.
+fn mime_type(path: &str) -> &'static str {
+    match path.rsplit('.').next().unwrap_or("") {
+        "js" | "mjs" => "text/javascript; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "wasm" => "application/wasm",
+        "json" | "map" => "application/json; charset=utf-8",
+        "webmanifest" => "application/manifest+json",
+        "svg" => "image/svg+xml",
+        "png" => "image/png",
+        "jpg" | "jpeg" => "image/jpeg",
+        "webp" => "image/webp",
+        "avif" => "image/avif",
+        "ico" => "image/x-icon",
+        "woff2" => "font/woff2",
+        "glb" => "model/gltf-binary",
+        "txt" => "text/plain; charset=utf-8",
+        // The page itself, which has the empty address.
+        _ => "text/html; charset=utf-8",
+    }
+}

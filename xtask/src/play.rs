@@ -1,0 +1,165 @@
+//! `cargo xtask play`: builds the engine for the browser, the page around it, and the program that serves both, and starts it.
+//!
+//! Every stage looks first whether its result is newer than what it is made from, so that a second start takes seconds.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::SystemTime;
+use std::{env, fs};
+
+use clap::Args;
+
+use crate::process::{build_hyperbody, cargo, root, run as run_command, succeeds, target_directory};
+use crate::{Outcome, playground};
+
+/// What the engine is built for.
+const TARGET: &str = "wasm32-unknown-unknown";
+
+#[derive(Args)]
+pub(crate) struct PlayArguments {
+    /// Only builds the engine for the browser, into web/src/engine/pkg, for work on the page
+    #[arg(long)]
+    engine_only: bool,
+    /// Builds everything and starts nothing
+    #[arg(long, conflicts_with = "engine_only")]
+    build_only: bool,
+    /// Compares the state hashes of all built-in scenes between the browser's engine and the native program
+    #[arg(long, conflicts_with_all = ["engine_only", "build_only"])]
+    check_hashes: bool,
+    /// What `hyperbody play` takes: SCENE, --port, --host, --no-open, --export DIR; see `hyperbody help play`
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    play: Vec<String>,
+}
+
+pub(crate) fn run(arguments: &PlayArguments) -> Outcome {
+    engine()?;
+    if arguments.engine_only {
+        return Ok(());
+    }
+    if arguments.check_hashes {
+        return playground::check_hashes(&[]);
+    }
+    page()?;
+    println!("==> the program that serves it");
+    let program = build_hyperbody(true)?;
+    if arguments.build_only {
+        return Ok(());
+    }
+    run_command(Command::new(program).arg("play").args(&arguments.play))
+}
+
+/// The folder of the page.
+pub(crate) fn web() -> PathBuf {
+    root().join("web")
+}
+
+/// Builds the engine into web/src/engine/pkg.
+pub(crate) fn engine() -> Outcome {
+    println!("==> the engine for the browser");
+    target()?;
+    run_command(&mut cargo(&["build", "--package", "hyperbody-wasm", "--target", TARGET, "--profile", "wasm"]))?;
+    let built = target_directory()?.join(TARGET).join("wasm/hyperbody_wasm.wasm");
+    let package = web().join("src/engine/pkg");
+    if is_newer(&package.join("hyperbody_wasm_bg.wasm"), newest(&built)) {
+        return Ok(());
+    }
+    let bindgen = ["run", "--quiet", "--package", "xtask-bindgen", "--features", "run", "--"];
+    run_command(cargo(&bindgen).arg(&built).arg(&package))
+}
+
+/// Makes sure that the standard library for the browser is there.
+fn target() -> Outcome {
+    let has_library = || {
+        let mut rustc = Command::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+        let output = rustc.current_dir(root()).args(["--print", "target-libdir", "--target", TARGET]).output();
+        let text = output.ok().and_then(|output| String::from_utf8(output.stdout).ok());
+        text.is_some_and(|folder| fs::read_dir(folder.trim()).is_ok_and(|mut files| files.next().is_some()))
+    };
+    if has_library() {
+        return Ok(());
+    }
+    println!("    this toolchain has no standard library for {TARGET}; `rustup target add {TARGET}` gets it");
+    let added = Command::new("rustup").current_dir(root()).args(["target", "add", TARGET]).status();
+    if added.is_ok_and(|status| status.success()) && has_library() {
+        return Ok(());
+    }
+    Err(format!(
+        "there is no standard library for {TARGET}, and rustup could not get it. On Debian: `apt-get install rustc-web \
+         cargo-web rust-web-src lld`, then build the library from its source with `RUSTC_BOOTSTRAP=1 cargo build -Z \
+         build-std=std,panic_abort --package hyperbody-wasm --target {TARGET} --profile wasm`"
+    ))
+}
+
+/// Builds the page into web/dist.
+pub(crate) fn page() -> Outcome {
+    println!("==> the page");
+    packages()?;
+    let web = web();
+    let sources = ["src", "public", "index.html", "package-lock.json", "tsconfig.json", "vite.config.ts"];
+    let changed = sources.iter().filter_map(|name| newest(&web.join(name))).max();
+    if is_newer(&web.join("dist/index.html"), changed) {
+        return Ok(());
+    }
+    run_command(npm()?.args(["run", "--silent", "build"]))?;
+    let (plain, packed) = weight(&web.join("dist"))?;
+    println!("    {:.2} MB, {:.2} MB compressed", plain as f64 / 1e6, packed as f64 / 1e6);
+    Ok(())
+}
+
+/// Installs the page's packages as the lock file names them, where that has not been done.
+pub(crate) fn packages() -> Outcome {
+    let web = web();
+    if is_newer(&web.join("node_modules/.package-lock.json"), newest(&web.join("package-lock.json"))) {
+        return Ok(());
+    }
+    run_command(npm()?.args(["ci", "--no-audit", "--no-fund"]))
+}
+
+/// `npm` in the folder of the page.
+pub(crate) fn npm() -> Outcome<Command> {
+    let name = if cfg!(windows) { "npm.cmd" } else { "npm" };
+    if !succeeds(Command::new(name).arg("--version")) {
+        return Err("the page is built with Node.js 20 or newer and its npm, which are not here; \
+                    on Debian: `apt-get install nodejs npm`"
+            .to_owned());
+    }
+    let mut command = Command::new(name);
+    command.current_dir(web());
+    Ok(command)
+}
+
+/// Bytes of all files of a folder, and of them with gzip as they are served.
+fn weight(folder: &Path) -> Outcome<(u64, u64)> {
+    let broken = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let (mut plain, mut packed) = (0, 0);
+    for entry in fs::read_dir(folder).map_err(broken)? {
+        let path = entry.map_err(broken)?.path();
+        if path.is_dir() {
+            let (more_plain, more_packed) = weight(&path)?;
+            plain += more_plain;
+            packed += more_packed;
+        } else {
+            let bytes = fs::read(&path).map_err(broken)?;
+            let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+            std::io::Write::write_all(&mut encoder, &bytes).map_err(broken)?;
+            let smaller = encoder.finish().map_err(broken)?.len().min(bytes.len());
+            plain += bytes.len() as u64;
+            packed += smaller as u64;
+        }
+    }
+    Ok((plain, packed))
+}
+
+/// When a file, or the newest file of a folder, was changed; `None` if there is none.
+fn newest(path: &Path) -> Option<SystemTime> {
+    if !path.is_dir() {
+        return fs::metadata(path).and_then(|data| data.modified()).ok();
+    }
+    let entries = fs::read_dir(path).ok()?.flatten();
+    entries.filter_map(|entry| newest(&entry.path())).max()
+}
+
+/// Whether a result is there and not older than what it is made from.
+fn is_newer(result: &Path, made_from: Option<SystemTime>) -> bool {
+    newest(result).is_some_and(|made| made_from.is_some_and(|changed| made >= changed))
+}

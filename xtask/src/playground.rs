@@ -1,0 +1,84 @@
+//! The stage "playground" of `cargo xtask test`: the engine gives the same bits in the browser's program as natively, the page
+//! compiles, and its tests pass in a browser. Also `cargo xtask play --check-hashes`, for all scenes.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::Outcome;
+use crate::play::{engine, npm, packages, page, web};
+use crate::process::{build_hyperbody, read, root, run as run_command, succeeds};
+
+/// Steps after which hashes are compared.
+const STEPS: &str = "300";
+
+/// One scene of every sort: all dimensions, joints, friction, curved and compound shapes, free rotation.
+const FEW: [&str; 8] = ["pyramid2d", "wing_nut3d", "chain3d", "dice4d", "rounded4d", "ells4d", "stack5d", "balls6d"];
+
+/// Where Chromium is looked for.
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+/// The stage. What is missing is named and left out, and under CI installed instead.
+pub(crate) fn check() -> Outcome {
+    if !succeeds(Command::new("node").arg("--version")) {
+        return or_skip("Node.js 20 or newer (on Debian: `apt-get install nodejs npm`)");
+    }
+    engine()?;
+    check_hashes(&FEW)?;
+    packages()?;
+    run_command(npm()?.args(["run", "--silent", "check"]))?;
+    page()?;
+    if !web().join("tests/run.mjs").is_file() {
+        return Ok(());
+    }
+    if !has_browser() {
+        if !is_ci() {
+            println!("    skipped: the page's tests in a browser need Chromium; on Debian: `apt-get install chromium`");
+            return Ok(());
+        }
+        run_command(Command::new("apt-get").args(["install", "--yes", "--no-install-recommends", "chromium"]))?;
+    }
+    // The page's tests ask the program that serves it, with the page in it.
+    build_hyperbody(true)?;
+    run_command(npm()?.args(["test", "--silent"]))
+}
+
+/// Compares the state hashes of the browser's engine with those of the native program; of all scenes if none is named.
+pub(crate) fn check_hashes(names: &[&str]) -> Outcome {
+    let program = build_hyperbody(true)?;
+    let script = web().join("tests/engine/hashes.mjs");
+    let text = read(Command::new("node").current_dir(root()).arg(script).arg(STEPS).args(names))?;
+    let hashes: Value = serde_json::from_str(&text).map_err(|error| format!("hashes.mjs printed no JSON: {error}"))?;
+    let hashes = hashes.as_object().ok_or("hashes.mjs printed no object")?;
+    let mut differing = Vec::new();
+    for (name, hash) in hashes {
+        let line = ["run", name, "--steps", STEPS, "--json"];
+        let answer: Value = serde_json::from_str(&read(Command::new(&program).args(line))?)
+            .map_err(|error| format!("`hyperbody {}` printed no JSON: {error}", line.join(" ")))?;
+        if &answer["hash"] != hash {
+            differing.push(format!("{name} ({} in the browser's engine, {} natively)", hash, answer["hash"]));
+        }
+    }
+    if !differing.is_empty() {
+        return Err(format!("state hashes after {STEPS} steps differ: {}", differing.join(", ")));
+    }
+    println!("    {} scenes have the same state hash in the browser's engine after {STEPS} steps", hashes.len());
+    Ok(())
+}
+
+fn has_browser() -> bool {
+    BROWSERS.iter().any(|name| succeeds(Command::new(name).arg("--version")))
+}
+
+fn is_ci() -> bool {
+    std::env::var_os("CI").is_some_and(|value| value == "true")
+}
+
+/// Under CI nothing is skipped.
+fn or_skip(missing: &str) -> Outcome {
+    if is_ci() {
+        return Err(format!("the playground's tests need {missing}"));
+    }
+    println!("    skipped: the playground's tests need {missing}");
+    Ok(())
+}
