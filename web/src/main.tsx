@@ -71,10 +71,11 @@ async function begin(playground: Playground): Promise<void> {
   }
 }
 
-/** The scene in the address (`#scene=…`), or named in it (`?scene=pit4d&speed=0.5`), or the first of the gallery. */
+/** The scene in the address (`#scene=…`), or named in it (`?scene=pit4d&speed=0.5`; `detail=2` fixes the pixel ratio), or the first of the gallery. */
 async function loadFirst(playground: Playground): Promise<void> {
   const options = new URLSearchParams(location.search);
   playground.usualSpeed = Number(options.get("speed")) || 1;
+  if (Number(options.get("detail"))) playground.quality.fix(Number(options.get("detail")));
   const names = allScenes(playground.builtins.value).map(({ name }) => name);
   const asked = options.get("scene");
   const first = [asked, ...FIRST_SCENES].find((name) => name !== null && names.includes(name)) ?? names[0];

@@ -25,7 +25,7 @@ test("the mouse selects a body, pulls it, and the panel's numbers follow", async
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });
   await settle(page);
-  const body = await idOf(page, "ball");
+  const body = await idOf(page, "tesseract");
   const from = await whereIs(page, body);
   await page.mouse.click(from.x, from.y);
   await until(page, (id) => window.hyperbody.selected === id && window.hyperbody.frame.selected?.body === id, body);
@@ -36,7 +36,7 @@ test("the mouse selects a body, pulls it, and the panel's numbers follow", async
   before.forEach((value, axis) => assert.ok(Math.abs(value - shown[axis]) < 0.02, `the panel says ${shown}, the world ${before}`));
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
-  for (let k = 1; k <= 12; k++) await page.mouse.move(from.x - 3 * k, from.y - 10 * k);
+  for (let k = 1; k <= 12; k++) await page.mouse.move(from.x + k, from.y - 10 * k);
   await until(page, ([id, y]) => {
     const { frame } = window.hyperbody;
     for (let at = 0; at < frame.centres.length; at += 5) if (frame.centres[at] === id) return frame.centres[at + 2] > y;

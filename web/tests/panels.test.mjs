@@ -74,10 +74,10 @@ test("scrubbing shows an earlier moment, and running goes on from there", async 
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });
   await until(page, () => window.hyperbody.frame.history.seconds > 1.5, null, 30_000);
-  const time = await page.evaluate(() => window.hyperbody.frame.time);
-  await page.getByTestId("scrub").evaluate((slider) => {
+  const time = await page.getByTestId("scrub").evaluate((slider) => {
     slider.value = "-1";
     slider.dispatchEvent(new Event("input", { bubbles: true }));
+    return window.hyperbody.frame.time;
   });
   await until(page, () => window.hyperbody.frame.history.secondsBack > 0.8);
   const back = await page.evaluate(() => ({ time: window.hyperbody.frame.time, paused: window.hyperbody.frame.paused }));

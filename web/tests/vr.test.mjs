@@ -39,7 +39,7 @@ test("a controller grabs a body, carries it, feels it hit the floor, and lets go
   await context.addInitScript({ path: EMULATOR });
   await context.addInitScript(() => {
     window.headset = new window.IWER.XRDevice(window.IWER.metaQuest3);
-    window.headset.installRuntime();
+    window.headset.installRuntime({ forceInstall: true });
     window.pulses = [];
   });
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });

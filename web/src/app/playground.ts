@@ -22,6 +22,9 @@ export const GHOST_REACH = 1.5;
 /** Panels are told of a frame this often: text that changes faster cannot be read. */
 const READOUT_MS = 80;
 
+/** A new scene is looked at through w = 0, unless its middle lies farther off than this, m. */
+const OFF_CENTRE = 0.3;
+
 /** A longer pause between two pictures is no motion: the tab was hidden. */
 const LONGEST_FRAME = 0.1;
 
@@ -193,14 +196,36 @@ export class Playground {
     return position.map((value, axis) => value - (strength > 0 ? (height * up[axis]) / strength : 0));
   }
 
+  /** How far off the slice a body lies, along the first off direction; null if the slice cuts it, or it is not there. */
+  distanceOff(body: number): number | null {
+    const { frame } = this.client;
+    if (!frame || this.flatland.value) return null;
+    const stride = 1 + 2 * frame.slice.off.length;
+    for (let at = 0; at + stride <= frame.strip.length && stride > 1; at += stride) {
+      if (frame.strip[at] !== body) continue;
+      const [low, high] = [frame.strip[at + 1], frame.strip[at + 2]];
+      return low > 0 ? low : high < 0 ? high : null;
+    }
+    return null;
+  }
+
   /** The ray under a place on the page, CSS pixels. */
   rayAt(x: number, y: number): Ray {
+    const ontoPlane = this.flat.rayAt(x, y);
+    if (ontoPlane) return ontoPlane;
     const box = this.stage.renderer.domElement.getBoundingClientRect();
     return this.stage.ray((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
   }
 
   pickAt(x: number, y: number): Picked | null {
-    return this.stage.pick(this.rayAt(x, y));
+    const ontoPlane = this.flat.rayAt(x, y);
+    return ontoPlane ? this.flat.pick(ontoPlane) : this.stage.pick(this.rayAt(x, y));
+  }
+
+  /** The normal of the plane in which what is grabbed there is pulled: towards the viewer. */
+  pullNormal(x: number, y: number): Vector3 {
+    if (this.flat.rayAt(x, y)) return this.flat.normal;
+    return this.stage.orbit.camera.getWorldDirection(new Vector3()).negate();
   }
 
   /** Where a body's centre is on the page, CSS pixels. */
@@ -324,7 +349,7 @@ export class Playground {
     this.client.send("ghosts", { on: settings.ghosts.value, reach: GHOST_REACH });
     this.client.send("wires", { on: settings.wires.value });
     this.setSpeed(this.usualSpeed);
-    scene.middle.slice(3).forEach((offset, j) => this.slice.moveTo(offset, j));
+    scene.middle.slice(3).forEach((offset, j) => Math.abs(offset) > OFF_CENTRE && this.slice.moveTo(offset, j));
   }
 
   /** Worlds of three dimensions: the whole world, with the plane of Flatland in it and beside it what its people see. */

@@ -1,4 +1,5 @@
 // The last seconds of the selected body: its energies and its angular velocity in every plane, for the live plots.
+import { inOrder } from "../ui/axes";
 import type { Selected } from "../engine/protocol";
 
 const SECONDS = 8;
@@ -26,9 +27,10 @@ export class Plots {
     if (this.body !== selected.body || (last && time < last.time)) this.clear();
     if (last?.time === time) return;
     this.body = selected.body;
-    this.planes = Object.keys(selected.angularVelocity);
+    const planes = inOrder(selected.angularVelocity);
+    this.planes = planes.map(([plane]) => plane);
     const { kinetic, potential } = selected.energy;
-    this.samples.push({ time, kinetic, potential, angular: Object.values(selected.angularVelocity) });
+    this.samples.push({ time, kinetic, potential, angular: planes.map(([, rate]) => rate) });
     while (this.samples.length > MOST_SAMPLES || time - this.samples[0].time > SECONDS) this.samples.shift();
   }
 }

@@ -1,13 +1,17 @@
 // Keeps the picture fluent on weak graphics: when pictures take too long for a while, they get coarser, then lose their
-// shadows; when there is room again, they get finer. In VR the headset decides.
+// shadows; when there is room again, they get finer. Where the processor has to draw (no graphics card), it begins coarse.
+// In VR the headset decides.
 import type { Stage } from "../view/stage";
 
 /** Pictures slower than this are too slow, faster than that leave room, s. */
 const TOO_SLOW = 1 / 34;
 const ROOM = 1 / 55;
-/** Pictures in a row that decide. */
-const PATIENCE = 45;
-const RATIOS = [0.5, 0.75, 1, 1.5, 2] as const;
+/** So long pictures have to be too slow, or to leave room, before anything changes, s. */
+const PATIENCE_DOWN = 1.2;
+const PATIENCE_UP = 6;
+/** Pixels of the picture for a pixel of the page (CSS). */
+const RATIOS = [0.4, 0.6, 0.8, 1, 1.5, 2] as const;
+const PLAIN = 3;
 
 export class QualityGuard {
   private level: number;
@@ -16,11 +20,19 @@ export class QualityGuard {
   private size: [number, number] = [1, 1];
   /** Once a finer level was too slow, it is not tried again. */
   private ceiling: number;
+  /** Fixed by the address: nothing is adapted. */
+  private fixed: number | null = null;
 
   constructor(private readonly stage: Stage) {
     const ratio = Math.min(2, window.devicePixelRatio || 1);
-    this.level = Math.max(2, RATIOS.findLastIndex((step) => step <= ratio + 0.01));
-    this.ceiling = this.level;
+    this.ceiling = Math.max(PLAIN, RATIOS.findLastIndex((step) => step <= ratio + 0.01));
+    this.level = stage.software ? 0 : this.ceiling;
+  }
+
+  /** Draws with this pixel ratio from now on, whatever it costs. */
+  fix(ratio: number): void {
+    this.fixed = ratio;
+    this.apply();
   }
 
   resize(width: number, height: number): void {
@@ -29,14 +41,14 @@ export class QualityGuard {
   }
 
   pictureTook(seconds: number): void {
-    if (this.stage.renderer.xr.isPresenting || seconds === 0) return;
-    this.slow = seconds > TOO_SLOW ? this.slow + 1 : Math.max(0, this.slow - 1);
-    this.quick = seconds < ROOM ? this.quick + 1 : 0;
-    if (this.slow > PATIENCE && this.level > 0) {
+    if (this.fixed !== null || this.stage.renderer.xr.isPresenting || seconds === 0) return;
+    this.slow = seconds > TOO_SLOW ? this.slow + seconds : Math.max(0, this.slow - seconds);
+    this.quick = seconds < ROOM ? this.quick + seconds : 0;
+    if (this.slow > PATIENCE_DOWN && this.level > 0) {
       this.level -= 1;
       this.ceiling = this.level;
       this.apply();
-    } else if (this.quick > 8 * PATIENCE && this.level < this.ceiling) {
+    } else if (this.quick > PATIENCE_UP && this.level < this.ceiling) {
       this.level += 1;
       this.apply();
     }
@@ -44,7 +56,9 @@ export class QualityGuard {
 
   private apply(): void {
     this.slow = this.quick = 0;
-    this.stage.setShadows(this.level > 0);
-    this.stage.resize(...this.size, RATIOS[this.level]);
+    this.stage.setShadows(this.fixed !== null || this.level > 0);
+    this.stage.resize(...this.size, this.fixed ?? RATIOS[this.level]);
+    // Blurred glass costs as much as the picture where the processor draws.
+    document.documentElement.classList.toggle("plain", this.fixed === null && this.level < PLAIN);
   }
 }

@@ -4,6 +4,8 @@ import { enScenes, type SceneWords } from "./en-scenes";
 export const en = {
   language: "English",
   tagline: "Hold the fourth dimension",
+  hintMouse: "Drag a body to pull it. Wheel while dragging pushes it along w. Q and E move the slice.",
+  hintTouch: "Pull a body with one finger; a second finger pushes it along w. Drag the strip to move the slice.",
   starting: "Starting the engine…",
 
   scenes: "Scenes",

@@ -5,6 +5,8 @@ import { zhScenes } from "./zh-scenes";
 export const zh: Words = {
   language: "中文",
   tagline: "把第四维握在手里",
+  hintMouse: "拖动物体来拉它；拖动时滚轮把它沿 w 推；Q 和 E 移动切片。",
+  hintTouch: "单指拉物体，第二指把它沿 w 推；拖动下方的带子移动切片。",
   starting: "正在启动物理引擎……",
 
   scenes: "场景",

@@ -115,8 +115,7 @@ export class PointerInput {
       const point = toWorld(this.playground.drawnFrame(), this.coordinates(picked.point));
       const grip = (turning && this.playground.centre(picked.body)) || point;
       this.playground.hands.grab(HAND.pointer, picked.body, grip, turning);
-      const towardsCamera = this.playground.stage.orbit.camera.getWorldDirection(new Vector3()).negate();
-      main.plane = new Plane().setFromNormalAndCoplanarPoint(towardsCamera, picked.point);
+      main.plane = new Plane().setFromNormalAndCoplanarPoint(this.playground.pullNormal(...main.start), picked.point);
       return;
     }
     main.act = main.button !== 0 || shift ? "pan" : "orbit";

@@ -7,8 +7,10 @@ import { BodyPanel } from "./body-panel";
 import { Editor } from "./editor";
 import { Gallery } from "./gallery";
 import { Help } from "./help";
+import { Hint } from "./hint";
 import { MorePanel } from "./more-panel";
 import { BodyMenu, Notice } from "./notices";
+import { OffMarker } from "./off-marker";
 import { ShapePalette } from "./shape-palette";
 import { sheet } from "./state";
 import { Strip } from "./strip";
@@ -32,6 +34,8 @@ export function App() {
       <Compass />
       <Transport />
       <Warnings />
+      <OffMarker />
+      <Hint />
       {playground.flatland.value && <FlatlandFrame />}
       {sheet.value === "gallery" && <Gallery />}
       {sheet.value === "editor" && <Editor />}

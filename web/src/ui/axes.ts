@@ -18,6 +18,12 @@ export function offName(frame: SliceFrame, j: number): string {
   return directionName(frame.rows[frame.shown + j], AXES[frame.shown + j]);
 }
 
+/** Planes in lexicographic order of the axes, x y z w v u. */
+export function inOrder<T>(planes: Readonly<Record<string, T>>): [string, T][] {
+  const rank = (plane: string) => AXES.findIndex((axis) => axis === plane[0]) * AXES.length + AXES.findIndex((axis) => axis === plane[1]);
+  return Object.entries(planes).sort(([a], [b]) => rank(a) - rank(b));
+}
+
 /** A number with a sign that keeps its width: the true minus, and a space of the same width for plus. */
 export function signed(value: number, digits = 2): string {
   const text = Math.abs(value).toFixed(digits);

@@ -1,7 +1,7 @@
 // Everything about the selected body, live: where it is, how it moves and turns, what it holds, and the last seconds of it.
 import { t } from "../i18n";
 import { BODY_COLOURS } from "../view/palette";
-import { AXES, AXIS_COLOURS, short, signed } from "./axes";
+import { AXES, AXIS_COLOURS, inOrder, short, signed } from "./axes";
 import { LiveCanvas, type Draw } from "./canvas";
 import { usePlayground } from "./context";
 import { Icon, IconButton } from "./icons";
@@ -19,7 +19,7 @@ export function BodyPanel() {
     <section class="body-panel glass" aria-label={t().body} data-testid="body-panel">
       <header>
         <span class="swatch" style={{ background: playground.stage.styles.of(id).css }} />
-        <h2>{selected.name}</h2>
+        <h2 title={selected.name}>{selected.name}</h2>
         <span class="state">{selected.frozen ? t().frozen : selected.sleeping ? t().asleep : `${short(selected.mass)} kg`}</span>
         <button type="button" class="button" aria-expanded={bodyOpen.value} aria-label={t().body} onClick={() => (bodyOpen.value = !bodyOpen.value)}>
           <Icon name="chevron" />
@@ -66,7 +66,7 @@ function Coordinates({ name, unit, values, testid }: { name: string; unit: strin
 }
 
 function Bars({ name, unit, planes }: { name: string; unit: string; planes: Planes }) {
-  const entries = Object.entries(planes);
+  const entries = inOrder(planes);
   const most = Math.max(1, ...entries.map(([, value]) => Math.abs(value)));
   return (
     <>

@@ -1,16 +1,19 @@
 // Flatland (after Abbott, 1884): a world of three dimensions, the plane that cuts it drawn as a sheet of glass, and beside
 // it what beings in that plane see. The cut is made by the graphics card: seen straight onto the plane, with nothing in
 // front of it drawn, a point lies inside a body exactly where the first surface behind the plane faces away.
-import { Color, DoubleSide, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, Vector3, Vector4 } from "three";
+import { Color, DoubleSide, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, OrthographicCamera, PlaneGeometry, Ray, Scene, ShaderMaterial, Vector3, Vector4 } from "three";
 import { homeFrame, type SliceFrame } from "../app/slice-frame";
 import type { Frame } from "../engine/protocol";
 import { COOL } from "./palette";
+import type { Picked } from "./pick";
 import type { Stage } from "./stage";
 
 /** Half the height of the cut that is shown, in extents of the scene. */
-const HALF_HEIGHT_EXTENTS = 1.15;
+const HALF_HEIGHT_EXTENTS = 0.95;
 const DEPTH = 400;
 const MOST_PLANES = 8;
+/** From where rays onto the plane start, m above it. */
+const ABOVE = 100;
 
 /** Where on the canvas the cut is drawn, in CSS pixels from the top left. */
 export interface Inset {
@@ -52,6 +55,9 @@ export class FlatlandView {
 
   setVisible(on: boolean): void {
     this.sheet.visible = on;
+    this.stage.makeRoom(on);
+    // The cut shows insides: cells have no place there.
+    this.stage.surfaces.plain = on;
   }
 
   show(frame: Frame): void {
@@ -60,6 +66,28 @@ export class FlatlandView {
     const count = Math.min(MOST_PLANES, frame.halfSpaces.length / 5);
     for (let i = 0; i < count; i++) planes[i].fromArray(frame.halfSpaces, 5 * i + 1);
     this.ground.material.uniforms.planeCount.value = count;
+  }
+
+  /** The ray through a place on the page, if that lies in the inset: from far above the plane straight onto it. */
+  rayAt(x: number, y: number): Ray | null {
+    const { left, top, width, height } = this.inset;
+    if (!this.sheet.visible || x < left || y < top || x > left + width || y > top + height) return null;
+    const inPicture = new Vector3((2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height, -1);
+    const onPlane = inPicture.unproject(this.camera);
+    const normal = this.normal;
+    return new Ray(onPlane.addScaledVector(normal, ABOVE), normal.clone().negate());
+  }
+
+  /** The body that the plane cuts where the ray meets it. */
+  pick(ray: Ray): Picked | null {
+    const onPlane = ray.at(ABOVE, new Vector3());
+    const first = this.stage.pick(new Ray(onPlane, ray.direction));
+    return first?.fromWithin ? { ...first, point: onPlane } : null;
+  }
+
+  /** The plane's normal in the whole world. */
+  get normal(): Vector3 {
+    return new Vector3(0, 0, 1).applyQuaternion(this.camera.quaternion);
   }
 
   /** Extents of all bodies along the plane's normal, measured from the plane, as `Frame.strip` has them. */
@@ -106,7 +134,7 @@ export class FlatlandView {
     const basis = new Matrix4().makeBasis(x, y, z);
     this.sheet.quaternion.setFromRotationMatrix(basis);
     this.sheet.position.copy(middle);
-    this.sheet.scale.set(half * Math.max(1, aspect), half, 1);
+    this.sheet.scale.set(half * aspect, half, 1);
     [this.camera.left, this.camera.right, this.camera.top, this.camera.bottom] = [-half * aspect, half * aspect, half, -half];
     this.camera.updateProjectionMatrix();
     this.camera.quaternion.copy(this.sheet.quaternion);
@@ -120,13 +148,13 @@ export class FlatlandView {
 function cutMaterial(): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: /* glsl */ `
-      attribute vec3 color; varying vec3 tint;
-      void main() { tint = color; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
+      attribute vec3 color; varying vec3 tint; varying float facing;
+      void main() { tint = color; facing = (normalMatrix * normal).z; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
     fragmentShader: /* glsl */ `
-      varying vec3 tint;
+      varying vec3 tint; varying float facing;
       void main() {
         // Facing us: the plane is outside here, and what lies behind it is not seen by those who live in it.
-        gl_FragColor = vec4(gl_FrontFacing ? vec3(0.0) : tint, gl_FrontFacing ? 0.0 : 1.0);
+        gl_FragColor = facing > 0.0 ? vec4(0.0) : vec4(tint, 1.0);
         #include <colorspace_fragment>
       }`,
     side: DoubleSide,

@@ -17,6 +17,10 @@ function sideUniforms(reach: number, strength: number) {
   return { warm: { value: new Color(WARM) }, cool: { value: new Color(COOL) }, reach: { value: reach }, strength: { value: strength } };
 }
 
+/** Of a lone ghost; and the number of ghosts that halves it. */
+const STRENGTH = 1.1;
+const CROWD = 14;
+
 export class GhostLayer {
   private readonly stream = new StreamGeometry([
     { name: "position", size: 3, make: (length) => new Float32Array(length) },
@@ -57,6 +61,8 @@ export class GhostLayer {
     this.mesh.visible = ghosts !== null;
     if (!ghosts) return;
     this.material.uniforms.reach.value = reach;
+    // Light adds up: many ghosts are fainter each.
+    this.material.uniforms.strength.value = STRENGTH / (1 + ghosts.distances.length / CROWD);
     const vertices = ghosts.positions.length / 3;
     this.stream.reserve(vertices);
     if (vertices > 0) {

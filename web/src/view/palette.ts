@@ -3,7 +3,7 @@
 import { Color } from "three";
 
 /** Body colours on the dark ground, in an order that keeps neighbours far apart. */
-export const BODY_COLOURS = ["#62bdf2", "#f6a53a", "#2cc79f", "#ee86b7", "#f3dd58", "#8090fa", "#ef6c4d", "#cfd6e4"] as const;
+export const BODY_COLOURS = ["#62bdf2", "#f6a53a", "#2cc79f", "#ee86b7", "#f3dd58", "#8090fa", "#ef6c4d", "#bcc6da"] as const;
 
 /** Off the slice on the positive side (towards +w at home), and on the negative side. */
 export const WARM = "#ffb04a";

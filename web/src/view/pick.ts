@@ -6,6 +6,8 @@ import type { Surface } from "../engine/protocol";
 export interface Picked {
   body: number;
   point: Vector3;
+  /** Whether the ray met the inside of the surface: it began within the body. */
+  fromWithin: boolean;
 }
 
 export class Picker {
@@ -21,8 +23,8 @@ export class Picker {
     const { surface } = this;
     if (!surface) return null;
     this.boxes ??= boxesOf(surface);
-    const { positions, ranges } = surface;
-    const [a, b, c, hit] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
+    const { positions, normals, ranges } = surface;
+    const [a, b, c, hit, normal] = Array.from({ length: 5 }, () => new Vector3());
     let nearest = Infinity;
     let found: Picked | null = null;
     this.boxes.forEach((box, range) => {
@@ -36,7 +38,8 @@ export class Picker {
         const distance = hit.distanceToSquared(ray.origin);
         if (distance >= nearest) continue;
         nearest = distance;
-        found = { body: ranges[3 * range], point: hit.clone() };
+        const outward = normal.fromArray(normals, at);
+        found = { body: ranges[3 * range], point: hit.clone(), fromWithin: outward.dot(ray.direction) > 0 };
       }
     });
     return found;

@@ -18,11 +18,21 @@ const KEY_FROM = new Vector3(0.45, 1, 0.55).normalize();
 const SHADOW_PIXELS = 2048;
 
 /** The camera stands so many extents away from a new scene. */
-const FIRST_DISTANCE = 3.1;
+const FIRST_DISTANCE = 2.75;
+/** Things that begin in the air come down: the camera looks at this share of the middle's height above the floor. */
+const SETTLED_HEIGHT = 0.72;
+/** Flatland's world is seen from farther off: it has half the picture. */
+const ROOM_DISTANCE = 1.4;
 const LEAST_EXTENT = 1.6;
+/** How far the picture moves for Flatland's window, as shares of its size: aside, or down where it is narrow (CSS pixels). */
+const ROOM_ASIDE = 0.2;
+const ROOM_BELOW = 0.15;
+const NARROW = 759;
 
 export class Stage {
   readonly renderer: WebGLRenderer;
+  /** No graphics card: the processor draws. */
+  readonly software: boolean;
   readonly scene = new Scene();
   readonly orbit = new OrbitCamera();
   /** Carries the camera: VR moves and scales it, everything else leaves it alone. */
@@ -35,13 +45,16 @@ export class Stage {
   readonly halfSpaces = new HalfSpaceLayer();
   readonly hands = new HandLayer();
   private readonly picker = new Picker();
-  private readonly key = new DirectionalLight("#fff0da", 2.5);
+  private readonly key = new DirectionalLight("#fff2e0", 2.05);
   private extent = 4;
+  private size: [number, number] = [1, 1];
+  private roomMade = false;
   private readonly middle = new Vector3();
 
   /** Throws where the browser has no WebGL. */
   constructor(canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    this.software = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, powerPreference: "high-performance" });
     this.renderer.toneMapping = NoToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -57,7 +70,7 @@ export class Stage {
   private light(): void {
     const rim = new DirectionalLight("#7fa8ff", 0.9);
     rim.position.set(-0.7, 0.35, -0.8);
-    this.scene.add(new HemisphereLight("#cfdaff", "#3a3f5c", 2.3), rim, this.key, this.key.target);
+    this.scene.add(new HemisphereLight("#e2e8fa", "#3c415a", 2.0), rim, this.key, this.key.target);
     this.key.castShadow = true;
     this.key.shadow.mapSize.set(SHADOW_PIXELS, SHADOW_PIXELS);
     this.key.shadow.bias = -0.0006;
@@ -70,7 +83,8 @@ export class Stage {
     this.styles.setBodies(scene.bodies);
     this.extent = Math.max(LEAST_EXTENT, scene.extent);
     this.middle.copy(middle);
-    this.halfSpaces.setScale(middle, this.extent);
+    if (middle.y > 0 && scene.bodies.some((body) => body.endless)) this.middle.y *= SETTLED_HEIGHT;
+    this.halfSpaces.setScale(this.middle, this.extent);
     this.frameAll();
     this.orbit.jump();
     this.aimLight();
@@ -79,7 +93,8 @@ export class Stage {
   /** Sends the camera to where the whole scene is seen. */
   frameAll(): void {
     const narrow = Math.max(1, 1.05 / this.orbit.camera.aspect);
-    this.orbit.lookAt(this.middle, FIRST_DISTANCE * this.extent * narrow, { yaw: 0.55, pitch: 0.3 });
+    const room = this.roomMade ? ROOM_DISTANCE : 1;
+    this.orbit.lookAt(this.middle, FIRST_DISTANCE * this.extent * narrow * room, { yaw: 0.55, pitch: 0.3 });
   }
 
   private aimLight(): void {
@@ -122,8 +137,20 @@ export class Stage {
   resize(width: number, height: number, pixelRatio: number): void {
     this.renderer.setPixelRatio(pixelRatio);
     this.renderer.setSize(width, height, false);
+    this.size = [width, height];
     this.orbit.camera.aspect = width / Math.max(1, height);
-    this.orbit.camera.updateProjectionMatrix();
+    this.makeRoom(this.roomMade);
+  }
+
+  /** Shifts the picture aside, so that Flatland's window does not hide it. */
+  makeRoom(on: boolean): void {
+    this.roomMade = on;
+    const [width, height] = this.size;
+    const { camera } = this.orbit;
+    if (!on) camera.clearViewOffset();
+    else if (width > NARROW) camera.setViewOffset(width, height, -ROOM_ASIDE * width, 0, width, height);
+    else camera.setViewOffset(width, height, 0, -ROOM_BELOW * height, width, height);
+    camera.updateProjectionMatrix();
   }
 
   render(seconds: number): void {
@@ -141,4 +168,13 @@ export class Stage {
   pick(ray: Raycaster["ray"]): Picked | null {
     return this.picker.pick(ray);
   }
+}
+
+/** Asks a context of its own, because smooth edges have to be chosen before the real one is made. */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name: unknown = info && gl?.getParameter(info.UNMASKED_RENDERER_WEBGL);
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return typeof name === "string" && /swiftshader|llvmpipe|software|basic render/i.test(name);
 }

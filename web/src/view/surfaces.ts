@@ -9,8 +9,8 @@ export type SurfaceMode = "solid" | "glass" | "off";
 
 const GLASS_OPACITY = 0.34;
 
-/** How much brighter a body is under the pointer, of 255. */
-const HOVER_LIGHT = 26;
+/** How much brighter a body is that is selected or under the pointer. */
+const LIT = 1.16;
 
 export class SurfaceLayer {
   private readonly stream = new StreamGeometry([
@@ -19,6 +19,8 @@ export class SurfaceLayer {
     { name: "color", size: 3, make: (length) => new Uint8Array(length), normalized: true },
   ]);
   private readonly material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.42, metalness: 0.0, envMapIntensity: 0.85 });
+  /** Draws all cells of a body in one shade. */
+  plain = false;
   readonly mesh = new Mesh(this.stream.geometry, this.material);
 
   constructor(private readonly styles: BodyStyles) {
@@ -56,13 +58,13 @@ export class SurfaceLayer {
     for (let range = 0; range < ranges.length; range += 3) {
       const body = ranges[range];
       const { shades } = this.styles.of(body);
-      const lift = body === this.styles.hovered || body === this.styles.selected ? HOVER_LIGHT : 0;
+      const light = body === this.styles.hovered || body === this.styles.selected ? LIT : 1;
       const end = ranges[range + 1] + ranges[range + 2];
       for (let vertex = ranges[range + 1]; vertex < end; vertex++) {
-        const shade = 3 * (cells[vertex] % CELL_SHADES);
-        colours[3 * vertex] = Math.min(255, shades[shade] + lift);
-        colours[3 * vertex + 1] = Math.min(255, shades[shade + 1] + lift);
-        colours[3 * vertex + 2] = Math.min(255, shades[shade + 2] + lift);
+        const shade = this.plain ? 0 : 3 * (cells[vertex] % CELL_SHADES);
+        colours[3 * vertex] = Math.min(255, shades[shade] * light);
+        colours[3 * vertex + 1] = Math.min(255, shades[shade + 1] * light);
+        colours[3 * vertex + 2] = Math.min(255, shades[shade + 2] * light);
       }
     }
   }

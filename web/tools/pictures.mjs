@@ -1,0 +1,47 @@
+// Takes the gallery's pictures from the built page, one of every scene, into public/gallery: `npm run build`, then
+// `node tools/pictures.mjs [scene…]`, then build again. Looked at by a person before they are committed.
+import { mkdirSync, writeFileSync } from "node:fs";
+import { launch, open, serve } from "../tests/support.mjs";
+
+const OUT = new URL("../public/gallery/", import.meta.url);
+const VIEW = { width: 960, height: 600 };
+const PICTURE = { width: 400, height: 250 };
+const QUALITY = 0.8;
+/** When a scene shows what it is about, s of its time. */
+const USUAL_MOMENT = 1.6;
+const MOMENTS = {
+  hello4d: 1.3, smash4d: 0.85, dominoes_w4d: 0.9, regular_dice4d: 3, dominoes3d: 2.6, bowling4d: 2.2, pit4d: 2.5, dice4d: 2.2, balls4d: 1.6, capsules4d: 2, toybox4d: 2.4, chain3d: 0.5, pendulum4d: 0.6,
+  bounce2d: 0.7, cradle2d: 0.5, clouds5d: 1.2, wing_nut3d: 1, net4d: 1.2,
+};
+
+const wanted = process.argv.slice(2);
+mkdirSync(OUT, { recursive: true });
+const [browser, server] = await Promise.all([launch(), serve()]);
+const context = await browser.newContext({ viewport: VIEW, locale: "en-GB" });
+const { page } = await open(context, server.address);
+await page.keyboard.press("c");
+const names = await page.locator("[data-scene]").evaluateAll((cards) => cards.map((card) => card.dataset.scene));
+await page.close();
+for (const name of wanted.length > 0 ? wanted : names) {
+  const { page: each, errors } = await open(context, server.address, { scene: name, query: "&detail=1" });
+  await each.addStyleTag({ content: "#app > :not(.flatland) { display: none !important } .flatland { left: 20px !important; top: 20px !important; bottom: 20px !important; width: 46vw !important }" });
+  await each.waitForFunction((moment) => window.hyperbody.frame.time >= moment, MOMENTS[name] ?? USUAL_MOMENT, { timeout: 60_000 });
+  await each.keyboard.press("Space");
+  await each.waitForTimeout(500);
+  const shot = (await each.screenshot({ type: "png" })).toString("base64");
+  const webp = await each.evaluate(async ({ data, width, height, quality }) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = Object.assign(document.createElement("canvas"), { width, height });
+    const context2d = canvas.getContext("2d");
+    context2d.imageSmoothingQuality = "high";
+    context2d.drawImage(image, 0, 0, width, height);
+    return canvas.toDataURL("image/webp", quality).split(",")[1];
+  }, { data: shot, ...PICTURE, quality: QUALITY });
+  writeFileSync(new URL(`${name}.webp`, OUT), Buffer.from(webp, "base64"));
+  console.log(name, errors.length ? errors : "");
+  await each.close();
+}
+await browser.close();
+server.close();
