@@ -60,14 +60,14 @@ const scenes = {
     return {
       name: "A staircase into w", dimension: 4, description: "Nine tesseracts stand in a row that leads along w as well as along x. Move the slice and walk up the stairs.",
       bodies: [floor(4), ...Array.from({ length: steps }, (_, k) => ({
-        name: `step ${k + 1}`, shape: box(0.3, 0.15 * (k + 1), 0.5, 0.3), position: at(4, (k - 4) * 0.68, 0.15 * (k + 1), 0, (k - 4) * 0.42),
+        name: `step ${k + 1}`, shape: box(0.3, 0.15 * (k + 1), 0.5, 0.5), position: at(4, (k - 4) * 0.68, 0.15 * (k + 1), 0, (k - 4) * 0.42),
       })), { name: "marble", shape: ball(0.28), position: at(4, 4 * 0.68, 3.4, 0, 4 * 0.42), velocity: at(4, -0.5, 0, 0, -0.3) }],
     };
   },
   smash4d() {
     const bodies = [floor(4)];
     for (let y = 0; y < 4; y++) for (let z = 0; z < 3; z++) for (let w = 0; w < 2; w++) {
-      bodies.push({ name: `brick ${y}${z}${w}`, shape: box(0.3, 0.3, 0.45, 0.45), position: at(4, 0, 0.3 + 0.6 * y, (z - 1) * 0.92, (w - 0.5) * 0.92) });
+      bodies.push({ name: `brick ${y}${z}${w}`, shape: box(0.3, 0.3, 0.45, 0.45), position: at(4, 0, 0.3 + 0.6 * y, (z - 1) * 0.92, w * 0.92 - 0.2) });
     }
     bodies.push({ name: "wrecking ball", shape: ball(0.55), mass: 30, position: at(4, -7, 1.6, 0.2, 0.15), velocity: at(4, 11, 2, 0, 0) });
     return { name: "Wall and wrecking ball", dimension: 4, description: "A heavy ball flies into a wall of bricks; half of them leave along w. Reset, and throw it yourself.", bodies };
@@ -87,8 +87,8 @@ const scenes = {
       name: "The six regular dice", dimension: 4, description: "Dice of 5, 8, 16, 24, 120 and 600 cells, all there are in four dimensions, are thrown and come to rest on a cell.",
       materials: { default: { friction: 0.45, restitution: 0.2 } },
       bodies: [floor(4), ...names.map((name, k) => ({
-        name, shape: regular(name, name === "5-cell" ? 0.95 : 0.78), position: at(4, ((k % 3) - 1) * 1.9, 2.2 + 0.4 * k, k < 3 ? -0.9 : 0.9, 0.1 * (k - 2.5)),
-        rotation: turns({ xy: 17 * k + 9, zw: 23 * k + 5 }), angular_velocity: { xy: 2 - 0.7 * k, xw: 1.5, yz: -1 + 0.5 * k },
+        name, shape: regular(name, name === "5-cell" ? 0.95 : 0.78), position: at(4, ((k % 3) - 1) * 1.9, 1.4 + 0.15 * k, k < 3 ? -0.95 : 0.95, 0.06 * (k - 2.5)),
+        rotation: turns({ xy: 17 * k + 9, zw: 23 * k + 5 }), angular_velocity: { xy: round(0.6 - 0.25 * k), yz: round(-0.4 + 0.2 * k), xz: 0.5 },
       }))],
     };
   },

@@ -6,6 +6,7 @@ import type { EngineClient } from "../engine/client";
 import { RefusedError } from "../engine/client";
 import type { BodyDescription, BuiltIn, Frame, SceneDescription, Selected } from "../engine/protocol";
 import { Stage } from "../view/stage";
+import { framing } from "../view/framing";
 import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
 import { HAND, HandControl } from "./hand-control";
@@ -69,6 +70,7 @@ export class Playground {
   /** Called once a picture, with the seconds since the last one. */
   readonly onPicture = new Set<(seconds: number) => void>();
   private pictureWanted: ((picture: Blob) => void) | null = null;
+  private unframed = false;
   private resetting = false;
   private opening: string | null = null;
   private fresh = false;
@@ -314,8 +316,16 @@ export class Playground {
     return toWorld(frame, this.stage.orbit.target.toArray().slice(0, frame.shown));
   }
 
+  /** Frames a new scene by what its first frame holds. */
+  private frameFirst(frame: Frame): void {
+    this.unframed = false;
+    const found = framing(frame, this.scene.value?.bodies ?? []);
+    if (found) this.stage.setFrame(found.middle, found.extent);
+  }
+
   private take(frame: Frame): void {
     this.fresh = true;
+    if (this.unframed) this.frameFirst(frame);
     this.stage.setPickSurface(frame.surface);
     for (const listener of this.onFrame) listener(frame);
   }
@@ -346,6 +356,7 @@ export class Playground {
     this.setFlatland(this.sceneName.value?.startsWith("flatland") ?? false);
     const middle = new Vector3(...scene.middle.slice(0, 3), ...(scene.dimension === 2 ? [0] : []));
     this.stage.setScene(scene, middle);
+    this.unframed = true;
     this.client.send("ghosts", { on: settings.ghosts.value, reach: GHOST_REACH });
     this.client.send("wires", { on: settings.wires.value });
     this.setSpeed(this.usualSpeed);

@@ -18,12 +18,13 @@ const KEY_FROM = new Vector3(0.45, 1, 0.55).normalize();
 const SHADOW_PIXELS = 2048;
 
 /** The camera stands so many extents away from a new scene. */
-const FIRST_DISTANCE = 2.75;
-/** Things that begin in the air come down: the camera looks at this share of the middle's height above the floor. */
-const SETTLED_HEIGHT = 0.72;
+const FIRST_DISTANCE = 2.9;
 /** Flatland's world is seen from farther off: it has half the picture. */
 const ROOM_DISTANCE = 1.4;
 const LEAST_EXTENT = 1.6;
+/** From where: a little from the side and above; worlds of two dimensions straight on. */
+const FIRST_VIEW = { yaw: 0.55, pitch: 0.3 };
+const FLAT_VIEW = { yaw: 0, pitch: 0.02 };
 /** How far the picture moves for Flatland's window, as shares of its size: aside, or down where it is narrow (CSS pixels). */
 const ROOM_ASIDE = 0.2;
 const ROOM_BELOW = 0.15;
@@ -49,6 +50,7 @@ export class Stage {
   private extent = 4;
   private size: [number, number] = [1, 1];
   private roomMade = false;
+  private flatWorld = false;
   private readonly middle = new Vector3();
 
   /** Throws where the browser has no WebGL. */
@@ -81,10 +83,15 @@ export class Stage {
   /** A new scene: colours, and the camera in front of all that moves. `middle` is a slice point. */
   setScene(scene: SceneDescription, middle: Vector3): void {
     this.styles.setBodies(scene.bodies);
-    this.extent = Math.max(LEAST_EXTENT, scene.extent);
-    this.middle.copy(middle);
-    if (middle.y > 0 && scene.bodies.some((body) => body.endless)) this.middle.y *= SETTLED_HEIGHT;
+    this.flatWorld = scene.dimension === 2;
+    this.setFrame(middle, scene.extent);
     this.halfSpaces.setScale(this.middle, this.extent);
+  }
+
+  /** What the camera frames and the light reaches from now on: a ball in the slice. */
+  setFrame(middle: Vector3, extent: number): void {
+    this.extent = Math.max(LEAST_EXTENT, extent);
+    this.middle.copy(middle);
     this.frameAll();
     this.orbit.jump();
     this.aimLight();
@@ -94,7 +101,7 @@ export class Stage {
   frameAll(): void {
     const narrow = Math.max(1, 1.05 / this.orbit.camera.aspect);
     const room = this.roomMade ? ROOM_DISTANCE : 1;
-    this.orbit.lookAt(this.middle, FIRST_DISTANCE * this.extent * narrow * room, { yaw: 0.55, pitch: 0.3 });
+    this.orbit.lookAt(this.middle, FIRST_DISTANCE * this.extent * narrow * room, this.flatWorld ? FLAT_VIEW : FIRST_VIEW);
   }
 
   private aimLight(): void {
