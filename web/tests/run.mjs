@@ -6,8 +6,8 @@ import { browserPath } from "./support.mjs";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 
-/** Longest run of a file, s; the gallery runs every scene. */
-const LIMIT_SECONDS = { "gallery.test.mjs": 420 };
+/** Longest run of a file, s; the gallery runs every scene, and the weight of the page takes a slow compression. */
+const LIMIT_SECONDS = { "gallery.test.mjs": 420, "load.test.mjs": 240 };
 const USUAL_LIMIT_SECONDS = 120;
 
 if (!existsSync(`${here}../dist/index.html`)) {

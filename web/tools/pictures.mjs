@@ -5,8 +5,8 @@ import { launch, open, serve } from "../tests/support.mjs";
 
 const OUT = new URL("../public/gallery/", import.meta.url);
 const VIEW = { width: 960, height: 600 };
-const PICTURE = { width: 400, height: 250 };
-const QUALITY = 0.74;
+const PICTURE = { width: 352, height: 220 };
+const QUALITY = 0.7;
 /** When a scene shows what it is about, s of its time. */
 const USUAL_MOMENT = 1.6;
 const MOMENTS = {

@@ -1,7 +1,7 @@
 // Two controllers that grab independently: what one holds follows its place and its attitude. Sticks move and turn the
 // slice, a pressed stick teleports, trigger or grip on the wrist panel presses its buttons, and impacts of what is held
 // pulse in the hand that holds it.
-import { Group, Matrix4, Ray, Vector3, type XRTargetRaySpace } from "three";
+import { Matrix4, Ray, Vector3, type XRTargetRaySpace } from "three";
 import { HAND } from "../../app/hand-control";
 import type { Playground } from "../../app/playground";
 import { settings } from "../../app/settings";
@@ -32,7 +32,6 @@ export class Controllers {
   private readonly controllers: Controller[];
   private readonly panel: WristPanel;
   private readonly teleport = new Teleport();
-  private readonly visuals = new Group();
 
   constructor(private readonly playground: Playground) {
     const { renderer, rig } = playground.stage;
@@ -48,12 +47,11 @@ export class Controllers {
       for (const release of ["selectend", "squeezeend"] as const) space.addEventListener(release, () => this.release(controller));
       return controller;
     });
-    playground.stage.scene.add(this.visuals, this.teleport.marker);
+    playground.stage.scene.add(this.teleport.marker);
     playground.onFrame.add((frame) => this.pulse(frame));
   }
 
   setVisible(on: boolean): void {
-    this.visuals.visible = on;
     this.teleport.marker.visible = false;
     this.panel.mesh.visible = on;
   }
