@@ -4,6 +4,7 @@ use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::{BodyDef, BodyHandle, World};
 
 use crate::build::{self, ShapeBuilder};
+use crate::dimension::DIMENSIONS;
 use crate::error::SceneError;
 use crate::json::Json;
 use crate::model::{Body, Joint, Scene, ShapeSpec};
@@ -19,6 +20,11 @@ impl Scene {
     where
         Dim<N>: EvenAlgebra,
     {
+        if !DIMENSIONS.contains(&self.dimension) {
+            let (lowest, highest) = (DIMENSIONS.start(), DIMENSIONS.end());
+            let message = format!("is {}, expected a whole number from {lowest} to {highest}", self.dimension);
+            return Err(SceneError::value("dimension", message));
+        }
         if self.dimension != N {
             return Err(SceneError::value("dimension", format!("is {}, and {N} was asked for", self.dimension)));
         }

@@ -1,6 +1,6 @@
 //! The playground: the scene that runs, and messages to it. Everything here runs natively too, where it is tested.
 
-use hyperbody_scene::{AnyWorld, BUILT_IN, Scene, SceneError, built_in};
+use hyperbody_scene::{BUILT_IN, Scene, SceneError, built_in};
 use serde_json::{Value, json};
 
 use crate::commands::Done;
@@ -47,8 +47,8 @@ macro_rules! run {
         fn start(scene: Scene) -> Result<Box<dyn Run>, SceneError> {
             match scene.dimension {
                 $($n => Ok(Box::new(Running::<$n>::new(scene)?)),)*
-                // Refused by the scene crate, in its words.
-                _ => AnyWorld::new(&scene, 1).and_then(|_| Ok(Box::new(Running::<2>::new(scene)?) as Box<dyn Run>)),
+                // Refused by the scene crate. `AnyWorld` would refuse it too, but bring every engine a second time.
+                _ => Ok(Box::new(Running::<2>::new(scene)?)),
             }
         }
     };

@@ -50,7 +50,7 @@ pub(crate) struct Running<const N: usize> {
     pub(crate) scene: Scene,
     pub(crate) world: World<N>,
     pub(crate) entries: Vec<Entry<N>>,
-    /// Steps that the present had when the world of now began to count.
+    /// What the steps of the world lack to those since the scene's start, modulo 2⁶⁴.
     pub(crate) first_step: u64,
     pub(crate) view: View<N>,
     pub(crate) ghosts: Option<f64>,
@@ -159,7 +159,8 @@ where
 
     /// Steps since the scene's start.
     pub(crate) fn step_count(&self) -> u64 {
-        self.first_step + self.world.step_count()
+        // Going on from the past may have begun to count below zero.
+        self.first_step.wrapping_add(self.world.step_count())
     }
 
     /// The present.

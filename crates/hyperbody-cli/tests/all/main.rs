@@ -3,6 +3,7 @@
 mod bad_input;
 mod common;
 mod inspect_regular;
+mod play;
 mod recording;
 mod render;
 mod results;
