@@ -101,6 +101,10 @@ pub(crate) fn page() -> Outcome {
         return Ok(());
     }
     run_command(npm()?.args(["run", "--silent", "build"]))?;
+    // The build script of the program watches the page only once it has seen it.
+    let script = root().join("crates/hyperbody-cli/build.rs");
+    let touched = fs::File::options().append(true).open(&script).and_then(|file| file.set_modified(SystemTime::now()));
+    touched.map_err(|error| format!("{}: {error}", script.display()))?;
     let (plain, packed) = weight(&web.join("dist"))?;
     println!("    {:.2} MB, {:.2} MB compressed", plain as f64 / 1e6, packed as f64 / 1e6);
     Ok(())

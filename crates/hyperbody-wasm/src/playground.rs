@@ -243,11 +243,11 @@ fn group(name: &str) -> &'static str {
     match stem {
         "stack" | "pyramid" | "embedded" => "stacks",
         "pit" | "dice" | "balls" | "capsules" | "rounded" | "ells" => "piles",
-        "ramp" => "friction",
+        "ramp" | "conveyor" => "friction",
         "bounce" | "clouds" => "bounces",
-        "wing_nut" | "tumble" => "spins",
-        "dominoes" | "bowling" => "games",
-        "cradle" | "chain" | "pendulum" => "joints",
+        "wing_nut" | "tumble" | "gyroscope" => "spins",
+        "dominoes" | "bowling" | "wrecking_ball" => "games",
+        "cradle" | "chain" | "pendulum" | "seesaw" | "car" | "door" | "net" => "joints",
         _ => "more",
     }
 }
