@@ -45,24 +45,29 @@ pub struct Tuning {
     pub tree_margin: f64,
 }
 
+impl Tuning {
+    /// The values of [`Tuning::default`].
+    pub const DEFAULT: Self = Self {
+        contact_hz: 45.0,
+        contact_damping_ratio: 10.0,
+        push_out_speed: 3.0,
+        slop: 0.0005,
+        speculative_distance: 0.02,
+        recycle_distance: 0.005,
+        restitution_threshold: 1.0,
+        joint_hz: 60.0,
+        joint_damping_ratio: 5.0,
+        sleep_speed: 0.05,
+        sleep_time: 0.5,
+        max_speed: 4000.0,
+        max_spin: 1000.0,
+        tree_margin: 0.05,
+    };
+}
+
 impl Default for Tuning {
     fn default() -> Self {
-        Self {
-            contact_hz: 45.0,
-            contact_damping_ratio: 10.0,
-            push_out_speed: 3.0,
-            slop: 0.0005,
-            speculative_distance: 0.02,
-            recycle_distance: 0.005,
-            restitution_threshold: 1.0,
-            joint_hz: 60.0,
-            joint_damping_ratio: 5.0,
-            sleep_speed: 0.05,
-            sleep_time: 0.5,
-            max_speed: 4000.0,
-            max_spin: 1000.0,
-            tree_margin: 0.05,
-        }
+        Self::DEFAULT
     }
 }
 

@@ -87,9 +87,23 @@ impl fmt::Display for SceneError {
 
 impl Error for SceneError {}
 
-/// The known name that is most like `name`: what a person who mistyped it most likely meant.
+/// Likeness (Jaro and Winkler, from 0 to 1) from which a name may have been meant: "blal" for "ball" has 0.93, "nonsense"
+/// for "density" 0.53.
+const LIKE: f64 = 0.7;
+
+/// The known name that is most like `name`.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    most_like(name, known).map(|(_, candidate)| candidate)
+}
+
+/// The known name that a person who typed `name` most likely meant, or `None` where nothing is like it: a wrong hint is
+/// worse than none.
+pub(crate) fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    most_like(name, known).filter(|(likeness, _)| *likeness >= LIKE).map(|(_, candidate)| candidate)
+}
+
+fn most_like<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<(f64, &'a str)> {
     let lower = name.to_lowercase();
     let mut best: Option<(f64, &str)> = None;
     for candidate in known {
@@ -98,5 +112,5 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
             best = Some((likeness, candidate));
         }
     }
-    best.map(|(_, candidate)| candidate)
+    best
 }

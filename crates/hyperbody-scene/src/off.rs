@@ -27,6 +27,7 @@ pub(crate) fn read(text: &str, path: &str) -> Result<OffFile> {
 /// body.
 pub(crate) fn polytope<const N: usize>(text: &str, path: &str) -> Result<Polytope<N>> {
     let file = read(text, path)?;
+    closed(&file, path)?;
     let polytope = file.to_polytope::<N>().map_err(|error| shape_error(path, &error))?;
     if let Some(facet) = facet_inside_the_hull(&file, &polytope) {
         let message = format!(
@@ -67,12 +68,23 @@ pub(crate) fn mesh<const N: usize>(text: &str, path: &str) -> Result<Option<(Vec
 pub(crate) fn cells<const N: usize>(text: &str, path: &str) -> Result<Vec<Polytope<N>>> {
     let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
     let file = read(text, path)?;
+    closed(&file, path)?;
     let hull = file.to_polytope::<N>().map_err(refuse)?;
     if facet_inside_the_hull(&file, &hull).is_none() {
         return Ok(vec![hull]);
     }
     let points = file.vertices::<N>().unwrap_or_default();
     convex_cells(&points, &file.boundary::<N>().map_err(refuse)?).map_err(refuse)
+}
+
+/// Refuses a surface with a gap: what it bounds is not said.
+fn closed(file: &OffFile, path: &str) -> Result<()> {
+    if is_closed(file) {
+        return Ok(());
+    }
+    let message = "the surface is open: some ridge of it (in 3D an edge) does not bound exactly two facets; add the facets that \
+                   are missing, or list the vertices alone to get their hull";
+    Err(SceneError::new(ErrorKind::Shape, path, message))
 }
 
 /// The number of the first listed facet that does not lie within one facet of the hull. A closed surface without one is the
@@ -133,6 +145,8 @@ mod tests {
     #[test]
     fn an_open_surface_is_told_from_a_closed_one() {
         assert!(!is_closed(&parse(OPEN_TETRAHEDRON).unwrap()));
+        assert!(polytope::<3>(OPEN_TETRAHEDRON, "x").unwrap_err().to_string().starts_with("x: the surface is open"));
+        assert!(cells::<3>(OPEN_TETRAHEDRON, "x").is_err());
         let closed = OPEN_TETRAHEDRON.replace("4 3 6", "4 4 6") + "3 1 2 3\n";
         assert!(is_closed(&parse(&closed).unwrap()));
         let cube = hyperbody::geometry::regular::Regular::Cube;

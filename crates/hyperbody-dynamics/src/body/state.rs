@@ -253,7 +253,7 @@ fn check_mass<const N: usize>(mass: f64, inertia: &Inertia<N>) -> Result<(), Wor
     const RANGE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
     if !RANGE.contains(&mass) {
         return Err(WorldError::bad_number(format!(
-            "the mass comes to {mass} kg; it must lie between 1e-15 and 1e15: change the density, the size, or give a mass"
+            "the mass comes to {mass:?} kg; it must lie between 1e-15 and 1e15: change the density, the size, or give a mass"
         )));
     }
     for i in 0..N {

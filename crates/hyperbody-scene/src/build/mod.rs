@@ -7,10 +7,11 @@ mod shape;
 
 use std::collections::BTreeMap;
 
+use hyperbody::dynamics::POSITION_LIMIT;
 use hyperbody::math::{Dim, EvenAlgebra, planes};
-use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, JointDef, Material, Vector, World, WorldDef};
+use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, JointDef, Material, Tuning, Vector, World, WorldDef};
 
-use crate::error::{ErrorKind, SceneError, nearest};
+use crate::error::{ErrorKind, SceneError, meant};
 use crate::model::{Body, Joint, Scene};
 pub use shape::MAX_VERTICES;
 pub(crate) use shape::{MAX_SHAPE_FILE_BYTES, ShapeBuilder, read_beside};
@@ -31,7 +32,7 @@ where
     at_most("bodies", scene.bodies.len(), MAX_BODIES)?;
     at_most("joints", scene.joints.len(), MAX_JOINTS)?;
     let def = WorldDef {
-        gravity: vector(&scene.gravity, "gravity")?,
+        gravity: vector_within(&scene.gravity, "gravity", Limit::GRAVITY)?,
         dt: scene.dt,
         substeps: scene.substeps,
         sleeping: scene.sleeping,
@@ -63,7 +64,7 @@ pub(crate) fn vector<const N: usize>(numbers: &[f64], path: &str) -> Result<Vect
         SceneError::value(path, message)
     })?;
     match numbers.iter().find(|number| !number.is_finite()) {
-        Some(number) => Err(SceneError::value(path, format!("holds {number}; every number has to be finite"))),
+        Some(number) => Err(SceneError::value(path, format!("holds {number:?}; every number has to be finite"))),
         None => Ok(vector),
     }
 }
@@ -73,12 +74,53 @@ pub(crate) fn vector_or_zero<const N: usize>(numbers: &[f64], path: &str) -> Res
     if numbers.is_empty() { Ok(Vector::ZERO) } else { vector(numbers, path) }
 }
 
+/// How large a number of a scene may be. Beyond, the engine would clamp it or give up the body, and the scene would not be
+/// what its writer meant.
+#[derive(Clone, Copy, Debug)]
+struct Limit {
+    largest: f64,
+    unit: &'static str,
+}
+
+impl Limit {
+    const PLACE: Self = Self { largest: POSITION_LIMIT, unit: "m" };
+    const SPEED: Self = Self { largest: Tuning::DEFAULT.max_speed, unit: "m/s" };
+    const SPIN: Self = Self { largest: Tuning::DEFAULT.max_spin, unit: "rad/s" };
+    const GRAVITY: Self = Self { largest: 1e6, unit: "m/s²" };
+    const GRAVITY_SCALE: Self = Self { largest: 1e6, unit: "times gravity" };
+
+    fn check(self, value: f64, path: &str) -> Result<()> {
+        if value.abs() <= self.largest {
+            return Ok(());
+        }
+        let (largest, unit) = (self.largest, self.unit);
+        Err(SceneError::value(path, format!("is {value:?}; it has to lie within ±{largest:?} {unit}")))
+    }
+}
+
+/// The vector of a list that may be left out, every number within a limit.
+fn vector_within<const N: usize>(numbers: &[f64], path: &str, limit: Limit) -> Result<Vector<N>> {
+    let vector = vector_or_zero(numbers, path)?;
+    numbers.iter().enumerate().try_for_each(|(axis, number)| limit.check(*number, &format!("{path}[{axis}]")))?;
+    Ok(vector)
+}
+
 /// The axes of a plane name.
 pub(crate) fn plane<const N: usize>(name: &str, path: &str) -> Result<(usize, usize)> {
     planes::from_name(N, name).ok_or_else(|| {
         let known: Vec<String> = planes::all(N).map(|(i, j)| planes::name(i, j)).collect();
         SceneError::value(path, format!("unknown plane \"{name}\"; in {N} dimensions there are {}", known.join(", ")))
     })
+}
+
+/// Names in quotes, the first few of many.
+fn quoted<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    const SHOWN: usize = 8;
+    let mut names: Vec<String> = names.map(|name| format!("\"{name}\"")).collect();
+    let more = names.len().saturating_sub(SHOWN);
+    names.truncate(SHOWN);
+    let list = names.join(", ");
+    if more > 0 { format!("{list} and {more} more") } else { list }
 }
 
 /// "1 number", "2 numbers".
@@ -97,6 +139,10 @@ fn at_most(path: &str, count: usize, limit: usize) -> Result<()> {
 fn names(scene: &Scene) -> Result<BTreeMap<String, usize>> {
     let mut indices = BTreeMap::new();
     for (index, name) in scene.body_names().into_iter().enumerate() {
+        if name.trim().is_empty() || name.chars().any(char::is_control) {
+            let message = format!("{name:?} is no name: names have visible letters and no control characters");
+            return Err(SceneError::value(format!("bodies[{index}].name"), message));
+        }
         if let Some(first) = indices.get(&name) {
             let message = format!("\"{name}\" is already the name of bodies[{first}]; names have to differ");
             return Err(SceneError::value(format!("bodies[{index}].name"), message));
@@ -116,7 +162,7 @@ pub(crate) fn materials(scene: &Scene) -> Result<BTreeMap<&str, Material>> {
         }
         let Material { friction, restitution, density } = named.material;
         let refuse = |key: &str, value: f64, expected: &str| {
-            Err(SceneError::value(format!("{path}.{key}"), format!("is {value}, expected {expected}")))
+            Err(SceneError::value(format!("{path}.{key}"), format!("is {value:?}, expected {expected}")))
         };
         if !(friction >= 0.0 && friction.is_finite()) {
             return refuse("friction", friction, "a finite number, 0 or more");
@@ -144,17 +190,21 @@ where
     let mut material = match &body.material {
         None => materials["default"],
         Some(name) => *materials.get(name.as_str()).ok_or_else(|| {
-            let near = nearest(name, materials.keys().copied()).unwrap_or("default");
-            let message = format!("no material is called \"{name}\"; the nearest is \"{near}\"");
+            let hint = meant(name, materials.keys().copied()).map_or_else(
+                || format!("there are {}", quoted(materials.keys().copied())),
+                |near| format!("the nearest is \"{near}\""),
+            );
+            let message = format!("no material is called \"{name}\"; {hint}");
             SceneError::value(format!("{path}.material"), message)
         })?,
     };
     material.density = body.density.unwrap_or(material.density);
+    Limit::GRAVITY_SCALE.check(body.gravity_scale, &format!("{path}.gravity_scale"))?;
     let mut def = BodyDef::new(shapes.shape(&body.shape, &format!("{path}.shape"))?)
         .kind(body.kind)
-        .position(vector_or_zero(&body.position, &format!("{path}.position"))?)
+        .position(vector_within(&body.position, &format!("{path}.position"), Limit::PLACE)?)
         .rotation(rotation::rotation(&body.rotation, &format!("{path}.rotation"))?)
-        .velocity(vector_or_zero(&body.velocity, &format!("{path}.velocity"))?)
+        .velocity(vector_within(&body.velocity, &format!("{path}.velocity"), Limit::SPEED)?)
         .angular_velocity(angular_velocity(&body.angular_velocity, &format!("{path}.angular_velocity"))?)
         .material(material)
         .gravity_scale(body.gravity_scale)
@@ -177,9 +227,7 @@ fn angular_velocity<const N: usize>(rates: &[(String, f64)], path: &str) -> Resu
     for (name, rate) in rates {
         let place = format!("{path}.{name}");
         let (i, j) = plane::<N>(name, &place)?;
-        if !rate.is_finite() {
-            return Err(SceneError::value(place, format!("is {rate}; every number has to be finite")));
-        }
+        Limit::SPIN.check(*rate, &place)?;
         let sorted = (i.min(j), i.max(j));
         if given.contains(&sorted) {
             let message = format!("the plane {} is given twice; give it once", planes::name(sorted.0, sorted.1));
@@ -201,9 +249,11 @@ fn joint_def<const N: usize>(
     let path = format!("{path}.ball");
     let body = |name: &String, key: &str| {
         let index = names.get(name.as_str()).ok_or_else(|| {
-            let near = nearest(name, names.keys().map(String::as_str));
-            let hint =
-                near.map_or_else(|| "there are no bodies".to_owned(), |near| format!("the nearest is \"{near}\""));
+            let near = meant(name, names.keys().map(String::as_str));
+            let hint = near.map_or_else(
+                || format!("there are {}", quoted(names.keys().map(String::as_str))),
+                |near| format!("the nearest is \"{near}\""),
+            );
             SceneError::value(format!("{path}.{key}"), format!("no body is called \"{name}\"; {hint}"))
         })?;
         Ok(handles[*index])
@@ -214,8 +264,8 @@ fn joint_def<const N: usize>(
     Ok(JointDef::Ball {
         a: body(a, "a")?,
         b: body(b, "b")?,
-        anchor_a: vector_or_zero(anchor_a, &format!("{path}.anchor_a"))?,
-        anchor_b: vector_or_zero(anchor_b, &format!("{path}.anchor_b"))?,
+        anchor_a: vector_within(anchor_a, &format!("{path}.anchor_a"), Limit::PLACE)?,
+        anchor_b: vector_within(anchor_b, &format!("{path}.anchor_b"), Limit::PLACE)?,
     })
 }
 
