@@ -133,7 +133,7 @@ impl<const N: usize> World<N> {
         body.joints
             .iter()
             .filter_map(|&slot| self.joints.at(slot))
-            .any(|joint| joint.body_a == other || joint.body_b == other)
+            .any(|joint| (joint.body_a == other || joint.body_b == other) && !joint.def.collide)
     }
 }
 

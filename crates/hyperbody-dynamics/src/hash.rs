@@ -58,7 +58,7 @@ impl<const N: usize> World<N> {
             }
         }
         for joint in self.joints.values() {
-            hasher.vector(joint.impulse);
+            joint.impulses.iter().flatten().for_each(|&impulse| hasher.number(impulse));
         }
         hasher.finish()
     }

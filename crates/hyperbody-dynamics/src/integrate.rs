@@ -42,6 +42,10 @@ impl<const N: usize> World<N> {
             }
         }
         for body in self.bodies.values_mut().filter(|body| body.kind == BodyKind::Kinematic && !body.quarantined) {
+            if let Some((centre, rotation)) = body.led_to.take() {
+                (body.centre, body.rotation, body.arrived) = (centre, rotation, true);
+                continue;
+            }
             body.centre += body.velocity * self.dt;
             if body.angular_velocity != Bivector::ZERO {
                 body.rotation = Rotation::exp(&(body.angular_velocity * self.dt)) * body.rotation;

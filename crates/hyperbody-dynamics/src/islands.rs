@@ -9,6 +9,7 @@ use hyperbody_math::Vector;
 
 use crate::body::Body;
 use crate::handle::Arena;
+use crate::joint::WORLD;
 use crate::pairs::Contact;
 use crate::{BodyHandle, World};
 
@@ -25,6 +26,8 @@ pub(crate) struct Islands {
     became: Vec<u32>,
     /// By root: whether something immovable holds a body of the island.
     held: Vec<bool>,
+    /// Bodies that fell asleep (true) or woke since the list was last taken.
+    changes: Vec<(u32, bool)>,
 }
 
 const NONE: u32 = u32::MAX;
@@ -38,6 +41,7 @@ impl Islands {
             least_slow_time: Vec::new(),
             became: Vec::new(),
             held: Vec::new(),
+            changes: Vec::new(),
         }
     }
 
@@ -49,6 +53,7 @@ impl Islands {
             if let Some(body) = bodies.at_mut(member) {
                 body.asleep_in = None;
                 body.slow_time = 0.0;
+                self.changes.push((member, false));
             }
         }
         members.clear();
@@ -68,6 +73,16 @@ impl Islands {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             self.wake_body(slot as u32, bodies);
         }
+    }
+
+    /// Whether nobody woke since the last step.
+    pub(crate) fn nothing_changed(&self) -> bool {
+        self.changes.is_empty()
+    }
+
+    /// Who fell asleep (true) or woke since the last call, in order.
+    pub(crate) fn take_changes(&mut self) -> impl Iterator<Item = (u32, bool)> {
+        self.changes.drain(..)
     }
 
     fn find(&mut self, mut x: u32) -> u32 {
@@ -126,6 +141,7 @@ impl<const N: usize> World<N> {
             self.islands.sleeping[island as usize].push(slot);
             if let Some(body) = self.bodies.at_mut(slot) {
                 body.fall_asleep_in(island);
+                self.islands.changes.push((slot, true));
             }
         }
     }
@@ -168,10 +184,13 @@ impl<const N: usize> World<N> {
         let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b));
         for (a, b) in contacts.chain(joints) {
             for (body, other) in [(a, b), (b, a)] {
-                let Some(other) = self.bodies.at(other).filter(|other| !other.is_moving()) else { continue };
+                let other = self.bodies.at(other);
+                if body == WORLD || other.is_some_and(Body::is_moving) {
+                    continue;
+                }
                 let root = self.islands.find(body) as usize;
                 held[root] = true;
-                if other.drifts() {
+                if other.is_some_and(Body::drifts) {
                     self.islands.least_slow_time[root] = 0.0;
                 }
             }

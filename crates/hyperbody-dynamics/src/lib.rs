@@ -6,9 +6,12 @@
 //! | [`body`] | what a body is, how it is defined, read and pushed |
 //! | [`queries`] | what is where: rays, points, boxes |
 //! | [`joint`] | what ties bodies together |
+//! | [`events`] | touches, sleep and broken joints of the last step |
+//! | [`snapshot`] | the whole state, to go back to |
 //! | [`material`] | friction, restitution, density |
 //! | [`tuning`] | every tunable number, with its reason |
 //! | `step` | the stages of one step, in order |
+//! | `steering` | kinematic bodies led from pose to pose |
 //! | `vetting` | what users set is brought within limits |
 //! | `broad_phase`, `pairs`, `narrow_phase` | who may touch whom, and where |
 //! | `islands`, `waking` | who rests together and falls asleep together; who wakes, and why |
@@ -20,6 +23,7 @@
 pub mod body;
 mod broad_phase;
 pub mod error;
+pub mod events;
 pub mod free_top;
 mod handle;
 mod hash;
@@ -31,7 +35,9 @@ mod measure;
 mod narrow_phase;
 mod pairs;
 pub mod queries;
+pub mod snapshot;
 mod solver;
+mod steering;
 mod step;
 pub mod timings;
 pub mod tuning;
@@ -41,12 +47,14 @@ pub mod world;
 
 pub use body::{BodyDef, BodyKind, BodyMut, BodyRef};
 pub use error::{WorldError, WorldErrorKind};
+pub use events::{BrokenJoint, ContactEvent, ContactPhase, Events};
 pub use handle::{BodyHandle, JointHandle};
-pub use joint::JointDef;
+pub use joint::{Freedom, JointDef, JointRef, Motor, Spring};
 pub use material::Material;
 pub use measure::Energy;
 pub use narrow_phase::ContactRef;
 pub use queries::{BodyHit, Queries, QueryScratch};
+pub use snapshot::Snapshot;
 pub use timings::StageTimings;
 pub use tuning::Tuning;
 pub use vetting::POSITION_LIMIT;

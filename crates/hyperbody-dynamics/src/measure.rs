@@ -52,4 +52,10 @@ impl<const N: usize> World<N> {
         }
         sum
     }
+
+    /// Number of pairs of convex pieces that are near enough to be looked at, touching or not.
+    #[must_use]
+    pub fn pair_count(&self) -> usize {
+        self.pairs.iter().count()
+    }
 }

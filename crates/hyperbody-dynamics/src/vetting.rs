@@ -56,6 +56,8 @@ fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) -> bool {
     if body.kind != BodyKind::Dynamic {
         return true;
     }
+    body.force += body.steady_force;
+    body.torque += body.steady_torque;
     let acceleration = body.force * body.inverse_mass;
     let shorter = shortened(acceleration, tuning.max_speed / dt);
     if shorter != acceleration {

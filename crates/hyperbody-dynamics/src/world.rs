@@ -6,6 +6,7 @@ use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Pose, Vector};
 
 use crate::body::Body;
+use crate::events::Events;
 use crate::handle::Arena;
 use crate::islands::Islands;
 use crate::joint::Joint;
@@ -13,8 +14,7 @@ use crate::pairs::Pairs;
 use crate::solver::Solver;
 use crate::vetting::{POSITION_LIMIT, in_bounds};
 use crate::{
-    BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, JointDef, JointHandle, StageTimings, Tuning, WorldError,
-    WorldErrorKind,
+    BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, JointHandle, StageTimings, Tuning, WorldError, WorldErrorKind,
 };
 
 /// Everything needed to make a world.
@@ -109,6 +109,7 @@ pub struct World<const N: usize> {
     pub(crate) tree: DynamicTree<N>,
     pub(crate) pairs: Pairs<N>,
     pub(crate) islands: Islands,
+    pub(crate) events: Events<N>,
 
     pub(crate) step_count: u64,
     pub(crate) max_penetration: f64,
@@ -178,6 +179,7 @@ impl<const N: usize> World<N> {
             tree: DynamicTree::new(),
             pairs: Pairs::new(),
             islands: Islands::new(),
+            events: Events::new(),
             step_count: 0,
             max_penetration: 0.0,
             contact_count: 0,
@@ -282,67 +284,6 @@ impl<const N: usize> World<N> {
         Ok(())
     }
 
-    /// Ties two bodies together. They no longer collide with each other, and both wake.
-    ///
-    /// # Errors
-    /// If a handle is stale, both are the same body, neither is dynamic, or a number is not finite.
-    pub fn add_joint(&mut self, def: JointDef<N>) -> Result<JointHandle, WorldError> {
-        def.validate()?;
-        let (a, b) = def.bodies();
-        if a == b {
-            return Err(WorldError::new(WorldErrorKind::NotAllowed, "a joint needs two different bodies"));
-        }
-        let (Some(body_a), Some(body_b)) = (self.bodies.get(a), self.bodies.get(b)) else { return Err(stale("body")) };
-        if body_a.kind != BodyKind::Dynamic && body_b.kind != BodyKind::Dynamic {
-            return Err(WorldError::new(
-                WorldErrorKind::NotAllowed,
-                "a joint between two bodies that no impulse moves has nothing to do; make one of them dynamic",
-            ));
-        }
-        let JointDef::Ball { anchor_a, anchor_b, .. } = def;
-        let joint = Joint {
-            body_a: a.index,
-            body_b: b.index,
-            arm_a: anchor_a - body_a.centre_in_body,
-            arm_b: anchor_b - body_b.centre_in_body,
-            impulse: Vector::ZERO,
-        };
-        let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for joints");
-        let handle = self.joints.insert(joint).map_err(|_| full())?;
-        for slot in [a.index, b.index] {
-            if let Some(body) = self.bodies.at_mut(slot) {
-                let position = body.joints.partition_point(|&other| other < handle.index);
-                body.joints.insert(position, handle.index);
-                if body.kind == BodyKind::Dynamic {
-                    self.wake_requests.push(slot);
-                }
-            }
-        }
-        self.pairs.retain(|pair| !is_pair_of(pair.body_a, pair.body_b, a.index, b.index));
-        Ok(handle)
-    }
-
-    /// Unties two bodies; both wake, and may collide again.
-    ///
-    /// # Errors
-    /// If there is no such joint.
-    pub fn remove_joint(&mut self, handle: JointHandle) -> Result<(), WorldError> {
-        let Some(joint) = self.joints.remove(handle) else { return Err(stale("joint")) };
-        for slot in [joint.body_a, joint.body_b] {
-            let Some(body) = self.bodies.at_mut(slot) else { continue };
-            body.joints.retain(|&other| other != handle.index);
-            for &collider in &body.colliders {
-                if let Some(collider) = &mut self.colliders[collider as usize] {
-                    collider.moved = true;
-                }
-            }
-            if body.kind == BodyKind::Dynamic {
-                self.wake_requests.push(slot);
-            }
-        }
-        Ok(())
-    }
-
     /// A body to read, or `None` if the handle is stale.
     #[must_use]
     pub fn body(&self, handle: BodyHandle) -> Option<BodyRef<'_, N>> {
@@ -365,12 +306,6 @@ impl<const N: usize> World<N> {
     #[must_use]
     pub fn body_count(&self) -> usize {
         self.bodies.len()
-    }
-
-    /// Number of joints.
-    #[must_use]
-    pub fn joint_count(&self) -> usize {
-        self.joints.len()
     }
 
     /// Gravity, m/s².
@@ -462,7 +397,7 @@ pub(crate) fn out_of_bounds<const N: usize>(centre: Vector<N>) -> WorldError {
     ))
 }
 
-fn stale(what: &str) -> WorldError {
+pub(crate) fn stale(what: &str) -> WorldError {
     WorldError::new(
         WorldErrorKind::StaleHandle,
         format!(

@@ -58,8 +58,6 @@ impl Joint {
     /// The names of the bodies that it ties together; `None` for the world.
     #[must_use]
     pub fn body_names(&self) -> (Option<&str>, &str) {
-        match self {
-            Self::Ball { a, b, .. } => (Some(a), b),
-        }
+        (self.a.as_deref(), &self.b)
     }
 }

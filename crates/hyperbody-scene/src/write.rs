@@ -3,7 +3,9 @@
 use hyperbody::prelude::Material;
 
 use crate::json::Json;
-use crate::model::{Angle, Body, BodyKind, Factor, Joint, Part, PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size};
+use crate::model::{
+    Angle, Body, BodyKind, Factor, Joint, JointKind, Part, PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size,
+};
 use crate::read::{FORMAT, VERSION};
 
 impl Scene {
@@ -85,6 +87,7 @@ fn body(body: &Body) -> Json {
     add("linear_damping", unless(0.0, body.linear_damping));
     add("angular_damping", unless(0.0, body.angular_damping));
     add("can_sleep", (!body.can_sleep).then_some(Json::Bool(false)));
+    add("surface_velocity", vector(&body.surface_velocity));
     add("colour", body.colour.map(|colour| numbers(&colour)));
     Json::Object(fields)
 }
@@ -164,12 +167,47 @@ fn rotation(rotation: &RotationSpec) -> Option<Json> {
 }
 
 fn joint(joint: &Joint) -> Json {
-    let Joint::Ball { a, b, anchor_a, anchor_b } = joint;
-    let mut fields = vec![field("a", text(a)), field("b", text(b))];
-    for (key, anchor) in [("anchor_a", anchor_a), ("anchor_b", anchor_b)] {
-        if !anchor.is_empty() {
-            fields.push(field(key, numbers(anchor)));
+    let mut fields = Vec::new();
+    let mut add = |key: &str, value: Option<Json>| fields.extend(value.map(|value| field(key, value)));
+    let vector = |values: &[f64]| (!values.is_empty()).then(|| numbers(values));
+    match &joint.kind {
+        JointKind::Ball | JointKind::Weld => {}
+        JointKind::Hinge { plane } | JointKind::Motor { plane } => add("plane", Some(text(plane))),
+        JointKind::Axle { keeps } => add("keeps", Some(Json::Number(f64::from(*keeps)))),
+        JointKind::Slider { along } => add("along", Some(text(along))),
+        JointKind::Distance { length } | JointKind::Rope { length } => add("length", Some(Json::Number(*length))),
+    }
+    add("a", joint.a.as_deref().map(text));
+    add("b", Some(text(&joint.b)));
+    add("anchor_a", vector(&joint.anchor_a));
+    add("anchor_b", vector(&joint.anchor_b));
+    add("rotation_a", rotation(&joint.rotation_a));
+    add("rotation_b", rotation(&joint.rotation_b));
+    if let Some(limits) = &joint.limits {
+        add(if limits.degrees { "limits_deg" } else { "limits" }, Some(numbers(&limits.range)));
+    }
+    if let Some(motor) = &joint.motor {
+        let drive = [("speed", motor.speed), ("max_force", motor.max_force)];
+        if matches!(joint.kind, JointKind::Motor { .. }) {
+            drive.into_iter().for_each(|(key, value)| add(key, Some(Json::Number(value))));
+        } else {
+            add("motor", Some(Json::Object(drive.map(|(key, value)| field(key, Json::Number(value))).to_vec())));
         }
     }
-    single("ball", Json::Object(fields))
+    if let Some(spring) = &joint.spring {
+        let given = [
+            ("target", Some(spring.target)),
+            ("hz", Some(spring.hz)),
+            ("damping_ratio", Some(spring.damping_ratio)),
+            ("max_force", spring.max_force),
+        ];
+        let given = given.into_iter().filter_map(|(key, value)| Some(field(key, Json::Number(value?))));
+        add("spring", Some(Json::Object(given.collect())));
+    }
+    add("hz", joint.softness.map(|[hz, _]| Json::Number(hz)));
+    add("damping_ratio", joint.softness.map(|[_, ratio]| Json::Number(ratio)));
+    add("break_force", joint.break_force.map(Json::Number));
+    add("break_torque", joint.break_torque.map(Json::Number));
+    add("collide", joint.collide.then_some(Json::Bool(true)));
+    single(joint.key(), Json::Object(fields))
 }

@@ -45,8 +45,8 @@ pub use hyperbody_math as math;
 /// What most programs need.
 pub mod prelude {
     pub use hyperbody_dynamics::{
-        BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, Energy, JointDef, JointHandle, Material, StageTimings, Tuning,
-        World, WorldDef, WorldError,
+        BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, ContactEvent, ContactPhase, Energy, Events, Freedom, JointDef,
+        JointHandle, JointRef, Material, Motor, Snapshot, Spring, StageTimings, Tuning, World, WorldDef, WorldError,
     };
     pub use hyperbody_geometry::{GeometryError, Polytope, Shape};
     pub use hyperbody_math::{Bivector, Matrix, Pose, Rotation, Rotor, Vector};

@@ -40,7 +40,7 @@ const STRUCTURE: &[Case] = &[
         &["bodies[2].shape.product.factors[0].axes", "unknown axis \"q\""],
     ),
     ("{\"ball\": {\"radius\": 0.5}}", "{\"mesh\": {\"file\": \"a.off\"}}", &["bodies[2].shape.mesh.file", "a.off"]),
-    ("\"ball\": {\"a\"", "\"hinge\": {\"a\"", &["joints[0]", "\"hinge\"", "not supported yet", "ball"]),
+    ("\"ball\": {\"a\"", "\"hinge\": {\"a\"", &["joints[0].hinge", "has no \"plane\""]),
     ("\"ball\": {\"a\"", "\"bal\": {\"a\"", &["joints[0]", "\"bal\"", "nearest known one is \"ball\""]),
     ("\"dimension\": 4,", "", &["no \"dimension\""]),
     ("\"format\": \"hyperbody-scene\", ", "", &["no \"format\"", "hyperbody-scene"]),

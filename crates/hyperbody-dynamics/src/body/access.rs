@@ -94,6 +94,18 @@ impl<'a, const N: usize> BodyRef<'a, N> {
         self.body.inertia.moments
     }
 
+    /// How its surface runs along it, body frame, m/s.
+    #[must_use]
+    pub fn surface_velocity(&self) -> Vector<N> {
+        self.body.surface_velocity
+    }
+
+    /// Force and torque that go on from step to step, N and N·m.
+    #[must_use]
+    pub fn steady_force(&self) -> (Vector<N>, Bivector<N>) {
+        (self.body.steady_force, self.body.steady_torque)
+    }
+
     /// J. Zero unless dynamic.
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
@@ -289,6 +301,34 @@ impl<const N: usize> BodyMut<'_, N> {
             return Err(WorldError::bad_number(format!("gravity scale is {factor}; it must be finite")));
         }
         self.body.gravity_scale = factor;
+        self.wake();
+        Ok(())
+    }
+
+    /// Sets how the surface runs along the body, body frame, m/s, and wakes what lies on it.
+    ///
+    /// # Errors
+    /// If it is not finite.
+    pub fn set_surface_velocity(&mut self, surface_velocity: impl Into<Vector<N>>) -> Result<(), WorldError> {
+        let surface_velocity = surface_velocity.into();
+        finite(surface_velocity, "surface velocity")?;
+        self.body.surface_velocity = surface_velocity;
+        self.request();
+        Ok(())
+    }
+
+    /// Sets a force through the centre of mass, N, and a torque by world planes, N·m, that go on from step to step until they
+    /// are set anew. They come on top of those applied for one step.
+    ///
+    /// # Errors
+    /// If one is not finite, or the body is not dynamic.
+    pub fn set_steady_force(&mut self, force: impl Into<Vector<N>>, torque: Bivector<N>) -> Result<(), WorldError> {
+        let force = force.into();
+        finite(force, "force")?;
+        finite_bivector(&torque, "torque")?;
+        self.require_dynamic("a force")?;
+        self.body.steady_force = force;
+        self.body.steady_torque = torque;
         self.wake();
         Ok(())
     }

@@ -45,6 +45,9 @@ pub struct BodyDef<const N: usize> {
     pub angular_damping: f64,
     /// Whether the body may fall asleep. Default true.
     pub can_sleep: bool,
+    /// How its surface runs along it, in its own frame, m/s: what rests on it is carried along, as on a conveyor. Default:
+    /// zero.
+    pub surface_velocity: Vector<N>,
 }
 
 impl<const N: usize> BodyDef<N> {
@@ -64,6 +67,7 @@ impl<const N: usize> BodyDef<N> {
             linear_damping: 0.0,
             angular_damping: 0.0,
             can_sleep: true,
+            surface_velocity: Vector::ZERO,
         }
     }
 
@@ -150,9 +154,18 @@ impl<const N: usize> BodyDef<N> {
         self
     }
 
+    /// Sets [`BodyDef::surface_velocity`].
+    #[must_use]
+    pub fn surface_velocity(mut self, surface_velocity: impl Into<Vector<N>>) -> Self {
+        self.surface_velocity = surface_velocity.into();
+        self
+    }
+
     pub(crate) fn validate(&self) -> Result<(), WorldError> {
         self.material.validate()?;
-        for (name, vector) in [("position", self.position), ("velocity", self.velocity)] {
+        let vectors =
+            [("position", self.position), ("velocity", self.velocity), ("surface_velocity", self.surface_velocity)];
+        for (name, vector) in vectors {
             if !vector.is_finite() {
                 return Err(WorldError::bad_number(format!(
                     "{name} is {:?}; every component must be finite",

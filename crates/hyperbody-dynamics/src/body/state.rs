@@ -103,6 +103,15 @@ pub(crate) struct Body<const N: usize> {
     pub(crate) force: Vector<N>,
     pub(crate) torque: Bivector<N>,
 
+    /// Pushes that go on from step to step, world frame, N and N·m.
+    pub(crate) steady_force: Vector<N>,
+    pub(crate) steady_torque: Bivector<N>,
+    /// How its surface runs along it, as a conveyor's does, body frame, m/s.
+    pub(crate) surface_velocity: Vector<N>,
+    /// Of kinematic bodies: where it is led in the next step, and whether it was in the last one.
+    pub(crate) led_to: crate::steering::Target<N>,
+    pub(crate) arrived: bool,
+
     pub(crate) gravity_scale: f64,
     pub(crate) linear_damping: f64,
     pub(crate) angular_damping: f64,
@@ -169,6 +178,11 @@ impl<const N: usize> Body<N> {
             angular_momentum,
             force: Vector::ZERO,
             torque: Bivector::ZERO,
+            steady_force: Vector::ZERO,
+            steady_torque: Bivector::ZERO,
+            surface_velocity: def.surface_velocity,
+            led_to: None,
+            arrived: false,
             gravity_scale: def.gravity_scale,
             linear_damping: def.linear_damping,
             angular_damping: def.angular_damping,
@@ -197,6 +211,11 @@ impl<const N: usize> Body<N> {
     #[inline]
     pub(crate) fn is_awake(&self) -> bool {
         self.kind != BodyKind::Static && self.asleep_in.is_none() && !self.quarantined
+    }
+
+    /// How its surface runs, world axes, m/s.
+    pub(crate) fn surface_in_world(&self) -> Vector<N> {
+        if self.surface_velocity == Vector::ZERO { Vector::ZERO } else { self.rotation.rotate(self.surface_velocity) }
     }
 
     /// A kinematic body in motion.

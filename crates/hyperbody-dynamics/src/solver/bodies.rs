@@ -46,6 +46,8 @@ pub(crate) struct SolverBody<const N: usize> {
     pub(crate) angular_velocity: Bivector<N>,
     pub(crate) acceleration: Vector<N>,
     pub(crate) angular_acceleration: Bivector<N>,
+    /// How the surface runs along the body, world axes, m/s: friction is against it.
+    pub(crate) surface: Vector<N>,
 }
 
 impl<const N: usize> SolverBody<N> {
@@ -61,6 +63,7 @@ impl<const N: usize> SolverBody<N> {
             angular_velocity: body.angular_velocity,
             acceleration: Vector::ZERO,
             angular_acceleration: Bivector::ZERO,
+            surface: body.surface_in_world(),
         }
     }
 
@@ -81,6 +84,7 @@ impl<const N: usize> SolverBody<N> {
             angular_velocity: body.angular_velocity,
             acceleration: gravity * body.gravity_scale + body.force * body.inverse_mass,
             angular_acceleration: body.inertia.velocity(&body.rotation, &body.torque),
+            surface: body.surface_in_world(),
         }
     }
 
@@ -98,6 +102,20 @@ impl<const N: usize> SolverBody<N> {
                 arm[k] = (r.0[i] * d.0[j] - r.0[j] * d.0[i]) * self.inverse_sqrt_moments[k];
                 k += 1;
             }
+        }
+        arm
+    }
+
+    /// The scaled arm of a turn in the plane `b`, of the world: b in the solver frame over √I.
+    #[inline]
+    pub(crate) fn lever(&self, b: &Bivector<N>) -> [f64; MAX_PLANES] {
+        let local = match &self.frame {
+            Some(frame) => frame.inverse_rotate_bivector(b),
+            None => *b,
+        };
+        let mut arm = [0.0; MAX_PLANES];
+        for (k, value) in local.planes().enumerate() {
+            arm[k] = value * self.inverse_sqrt_moments[k];
         }
         arm
     }

@@ -37,6 +37,11 @@ impl<const N: usize> Gyro<N> {
         Self { body, world_from_principal, moments, momentum_at_start: momentum, torque, precession: [0.0; MAX_PLANES] }
     }
 
+    /// J_i, kg·m².
+    pub(crate) fn moments(&self) -> &Vector<N> {
+        &self.moments
+    }
+
     /// Angular momentum now, world frame: that at the start, the torque's share, and the impulses'.
     pub(crate) fn momentum(&self, body: &SolverBody<N>, state: &[Real], elapsed: f64) -> Bivector<N> {
         let row = self.body * Sizes::<N>::STATE + N;

@@ -39,7 +39,7 @@ use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
 use contacts::{Block, ContactRows, Layout, PassTimes, Passes, Prepare};
 use gyro::Gyro;
-use joints::JointRows;
+use joints::{Joints, Moment, Moving, Pass};
 use lanes::Lanes;
 pub(crate) use lanes::Real;
 use pressed::Pressed;
@@ -57,7 +57,7 @@ pub(crate) struct Solver<const N: usize> {
     active: Vec<ActiveContact>,
     colours: Colours,
     contacts: ContactRows,
-    joints: Vec<JointRows<N>>,
+    joints: Joints<N>,
     turning: Turning<N>,
     pressed: Pressed,
     arch: pulp::Arch,
@@ -94,7 +94,7 @@ impl<const N: usize> Solver<N> {
             active: Vec::new(),
             colours: Colours::default(),
             contacts: ContactRows::default(),
-            joints: Vec::new(),
+            joints: Joints::default(),
             turning: Turning::default(),
             pressed: Pressed::default(),
             arch: pulp::Arch::new(),
@@ -107,7 +107,7 @@ impl<const N: usize> Solver<N> {
         self.collect_bodies(input, h);
         self.collect_contacts(input);
         self.make_rows(input, h);
-        self.collect_joints(input);
+        self.joints.collect(input, &self.bodies, &self.gyros, h);
         self.run_substeps(input, h);
         self.store_impulses(input);
     }
@@ -126,7 +126,8 @@ impl<const N: usize> Solver<N> {
                 self.bodies.push(SolverBody::immovable(body));
             }
             if !body.is_moving() {
-                if body.kind == BodyKind::Kinematic && !body.quarantined {
+                let runs = body.surface_velocity != Vector::ZERO && body.kind == BodyKind::Static;
+                if (body.kind == BodyKind::Kinematic || runs) && !body.quarantined {
                     self.push_body(body, SolverBody::immovable);
                 }
                 continue;
@@ -150,6 +151,7 @@ impl<const N: usize> Solver<N> {
             first.angular_velocity = hyperbody_math::Bivector::ZERO;
             first.slot = u32::MAX;
             first.inverse_sqrt_mass = 0.0;
+            first.surface = Vector::ZERO;
         }
         self.state.clear();
         self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
@@ -224,41 +226,18 @@ impl<const N: usize> Solver<N> {
         }
     }
 
-    fn collect_joints(&mut self, input: &SolverInput<'_, N>) {
-        self.joints.clear();
-        for (handle, joint) in input.joints.iter() {
-            let (Some(a), Some(b)) = (input.bodies.at(joint.body_a), input.bodies.at(joint.body_b)) else { continue };
-            if !(a.is_moving() || b.is_moving()) || a.quarantined || b.quarantined {
-                continue;
-            }
-            let mut end = |body: &Body<N>, arm: Vector<N>| {
-                let mut row = body.solver_index as usize;
-                if row == 0 {
-                    // Static bodies have no row of their own until a joint needs their place.
-                    row = self.bodies.len();
-                    self.bodies.push(SolverBody::immovable(body));
-                    self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
-                }
-                (row, body.rotation.rotate(arm))
-            };
-            let (end_a, end_b) = (end(a, joint.arm_a), end(b, joint.arm_b));
-            self.joints.push(JointRows::new(handle.index, joint, end_a, end_b));
-        }
-    }
-
     fn run_substeps(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
         let joint_soft = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
         let arch = self.arch;
         self.turning.clear(self.bodies.len());
         self.pressed.clear::<N>(self.bodies.len());
+        self.refresh_joints(&Moment::new(0, 0, h));
         for substep in 0..input.substeps {
             let mut times = pass_times(substep, h, tuning);
             self.damp(h * f64::from(substep + 1));
-            for joint in &mut self.joints {
-                joint.refresh(&self.bodies, &self.state, &times);
-                joint.warm_start(&self.bodies, &mut self.state);
-            }
+            self.joints.kick(h);
+            self.warm_start_joints(Pass::Move);
             if substep == 0 {
                 let contacts = &mut self.contacts;
                 let pass = |state: &mut [Real]| arch.dispatch(|| Passes::<N>::warm_start(contacts, state));
@@ -266,17 +245,15 @@ impl<const N: usize> Solver<N> {
             } else {
                 self.pressed.warm_start::<N>(&mut self.state);
             }
-            for joint in &mut self.joints {
-                joint.solve(&self.bodies, &mut self.state, Some(&joint_soft));
-            }
+            self.solve_joints(Pass::Move, substep, h, &joint_soft);
             self.solve_contacts(&times);
             self.move_bodies(h, h * f64::from(substep + 1));
             times = PassTimes { push: false, ..after_move(times, substep, h) };
             let rows = (&mut self.contacts, self.active.as_slice());
             self.turning.refresh(&self.bodies, &self.state, &times, rows, input.pairs);
-            for joint in &mut self.joints {
-                joint.solve(&self.bodies, &mut self.state, None);
-            }
+            self.refresh_joints(&Moment::new(substep + 1, substep + 1, h));
+            self.warm_start_joints(Pass::Settle);
+            self.solve_joints(Pass::Settle, substep, h, &joint_soft);
             self.solve_contacts(&times);
             if substep + 1 == input.substeps {
                 arch.dispatch(|| Passes::<N>::bounce(&mut self.contacts, &mut self.state, &times));
@@ -288,6 +265,28 @@ impl<const N: usize> Solver<N> {
         let (arch, contacts) = (self.arch, &mut self.contacts);
         let pass = |state: &mut [Real]| arch.dispatch(|| Passes::<N>::solve(contacts, state, times));
         self.pressed.watch::<N>(&mut self.state, pass);
+    }
+
+    fn refresh_joints(&mut self, moment: &Moment) {
+        let moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
+        self.joints.refresh(&moving, moment);
+    }
+
+    fn warm_start_joints(&mut self, pass: Pass) {
+        let mut moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
+        self.joints.warm_start(&mut moving, pass);
+    }
+
+    fn solve_joints(&mut self, pass: Pass, substep: u32, h: f64, stiff: &Softness) {
+        let mut moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
+        match pass {
+            Pass::Move => self.joints.look_ahead(&moving, &Moment::new(substep, substep + 1, h)),
+            Pass::Settle => {}
+        }
+        self.joints.solve(&mut moving, pass, h, stiff);
+        if matches!(pass, Pass::Settle) {
+            self.joints.add_up();
+        }
     }
 
     /// Lets the velocities of damped bodies die away: v' = v/(1 + h·rate), base part included.
@@ -335,11 +334,7 @@ impl<const N: usize> Solver<N> {
                 }
             }
         }
-        for joint in &self.joints {
-            if let Some(stored) = input.joints.at_mut(joint.slot) {
-                stored.impulse = joint.impulse;
-            }
-        }
+        self.joints.store(input.joints);
     }
 }
 
@@ -385,6 +380,7 @@ fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
         angular_velocity: hyperbody_math::Bivector::ZERO,
         acceleration: Vector::ZERO,
         angular_acceleration: hyperbody_math::Bivector::ZERO,
+        surface: Vector::ZERO,
     }
 }
 

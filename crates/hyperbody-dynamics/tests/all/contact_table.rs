@@ -204,7 +204,7 @@ fn compound_pendulum<const N: usize>() {
         let hanging = Vector::unit(vertical) * -distance;
         let bob = BodyDef::new(cuboid(half_extents)).rotation(rotation).position(rotation.rotate(hanging));
         let bob = world.add_body(bob).unwrap();
-        let joint = JointDef::Ball { a: pivot, b: bob, anchor_a: Vector::ZERO, anchor_b: -hanging };
+        let joint = JointDef::ball(pivot, bob, Vector::ZERO, -hanging);
         world.add_joint(joint).unwrap();
         let mean = |i: usize| half_extents[i] * half_extents[i] / 3.0;
         let moment = mean(vertical) + mean(across) + distance * distance;

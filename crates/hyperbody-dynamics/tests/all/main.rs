@@ -2,6 +2,7 @@
 
 mod common;
 mod contact_table;
+mod events;
 mod free_top_common;
 mod free_top_elliptic;
 mod free_top_equations;
@@ -10,7 +11,12 @@ mod free_top_proportional;
 mod free_top_runs;
 mod free_top_stability;
 mod free_top_step;
+mod joint_hand;
+mod joint_kinds;
 mod queries;
+mod random_operations;
 mod robustness;
+mod snapshot;
 mod stacks_and_piles;
+mod steering;
 mod symmetry;

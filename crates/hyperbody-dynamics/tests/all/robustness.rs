@@ -295,7 +295,7 @@ fn a_joint_follows_fast_turns() {
     let rod = rod.velocity(Vector::unit(1) * (0.5 * spin)).angular_velocity(Bivector::plane(0, 1, spin));
     let rod = world.add_body(rod).unwrap();
     let anchor_b = Vector::unit(0) * -0.5;
-    world.add_joint(JointDef::Ball { a: pivot, b: rod, anchor_a: Vector::ZERO, anchor_b }).unwrap();
+    world.add_joint(JointDef::ball(pivot, rod, Vector::ZERO, anchor_b)).unwrap();
     let before = world.energy().kinetic;
     for _ in 0..240 {
         world.step();

@@ -31,7 +31,7 @@ fn scene<const N: usize>() -> (World<N>, Vec<BodyHandle>) {
     let bob = add(BodyDef::new(shape(0.2, 0.3, 0.1)).position(place(-5.0 + 0.8, 3.0, 0.0)));
     let pivot = world.add_body(BodyDef::fixed(ball(0.1)).position(place(-5.0, 3.0, 0.0))).unwrap();
     let anchor_b = place(-0.8, 0.0, 0.0);
-    world.add_joint(JointDef::Ball { a: pivot, b: bob, anchor_a: Vector::ZERO, anchor_b }).unwrap();
+    world.add_joint(JointDef::ball(pivot, bob, Vector::ZERO, anchor_b)).unwrap();
     (world, vec![sliding, pushed, landing, flying, bob])
 }
 

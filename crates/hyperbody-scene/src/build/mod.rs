@@ -1,6 +1,7 @@
 //! From a [`Scene`] to a world: everything that a scene's values have to satisfy is checked here, for scenes from files
 //! as for those made by programs, and every complaint names its place as in a file.
 
+mod joint;
 mod product;
 mod rotation;
 mod shape;
@@ -9,10 +10,10 @@ use std::collections::BTreeMap;
 
 use hyperbody::dynamics::POSITION_LIMIT;
 use hyperbody::math::{Dim, EvenAlgebra, planes};
-use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, JointDef, Material, Tuning, Vector, World, WorldDef};
+use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, Material, Tuning, Vector, World, WorldDef};
 
 use crate::error::{ErrorKind, SceneError, meant};
-use crate::model::{Body, Joint, Scene};
+use crate::model::{Body, Scene};
 pub use shape::MAX_VERTICES;
 pub(crate) use shape::{MAX_SHAPE_FILE_BYTES, ShapeBuilder, read_beside};
 
@@ -51,7 +52,7 @@ where
     }
     for (index, joint) in scene.joints.iter().enumerate() {
         let path = format!("joints[{index}]");
-        let def = joint_def(joint, &path, &names, &handles)?;
+        let def = joint::joint(joint, &path, &names, &handles)?;
         world.add_joint(def).map_err(|error| SceneError::value(&path, error.to_string()))?;
     }
     Ok((world, handles))
@@ -210,7 +211,12 @@ where
         .gravity_scale(body.gravity_scale)
         .linear_damping(body.linear_damping)
         .angular_damping(body.angular_damping)
-        .can_sleep(body.can_sleep);
+        .can_sleep(body.can_sleep)
+        .surface_velocity(vector_within::<N>(
+            &body.surface_velocity,
+            &format!("{path}.surface_velocity"),
+            Limit::SPEED,
+        )?);
     def.mass = body.mass;
     if let Some(colour) = body.colour
         && !colour.iter().all(|part| (0.0..=1.0).contains(part))
@@ -237,36 +243,6 @@ fn angular_velocity<const N: usize>(rates: &[(String, f64)], path: &str) -> Resu
         sum.set(i, j, *rate);
     }
     Ok(sum)
-}
-
-fn joint_def<const N: usize>(
-    joint: &Joint,
-    path: &str,
-    names: &BTreeMap<String, usize>,
-    handles: &[BodyHandle],
-) -> Result<JointDef<N>> {
-    let Joint::Ball { a, b, anchor_a, anchor_b } = joint;
-    let path = format!("{path}.ball");
-    let body = |name: &String, key: &str| {
-        let index = names.get(name.as_str()).ok_or_else(|| {
-            let near = meant(name, names.keys().map(String::as_str));
-            let hint = near.map_or_else(
-                || format!("there are {}", quoted(names.keys().map(String::as_str))),
-                |near| format!("the nearest is \"{near}\""),
-            );
-            SceneError::value(format!("{path}.{key}"), format!("no body is called \"{name}\"; {hint}"))
-        })?;
-        Ok(handles[*index])
-    };
-    if a == b {
-        return Err(SceneError::value(&path, format!("ties \"{a}\" to itself; a and b have to differ")));
-    }
-    Ok(JointDef::Ball {
-        a: body(a, "a")?,
-        b: body(b, "b")?,
-        anchor_a: vector_within(anchor_a, &format!("{path}.anchor_a"), Limit::PLACE)?,
-        anchor_b: vector_within(anchor_b, &format!("{path}.anchor_b"), Limit::PLACE)?,
-    })
 }
 
 /// What the geometry refuses, at its place in the scene.

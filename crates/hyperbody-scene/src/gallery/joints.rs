@@ -1,7 +1,7 @@
 //! Pendulums and chains.
 
 use super::stage::{material, scene};
-use crate::model::{Body, Joint, Scene, ShapeSpec};
+use crate::model::{Body, Joint, JointKind, Scene, ShapeSpec};
 
 pub(super) fn cradle_2d() -> Scene {
     let mut scene =
@@ -66,5 +66,5 @@ pub(super) fn pendulum_4d() -> Scene {
 }
 
 fn ball_joint(a: &str, anchor_a: Vec<f64>, b: &str, anchor_b: Vec<f64>) -> Joint {
-    Joint::Ball { a: a.to_owned(), b: b.to_owned(), anchor_a, anchor_b }
+    Joint::new(JointKind::Ball, a, b).anchored(anchor_a, anchor_b)
 }

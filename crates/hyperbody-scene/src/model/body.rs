@@ -1,4 +1,4 @@
-//! Bodies and joints of a scene.
+//! Bodies of a scene.
 
 pub use hyperbody::prelude::BodyKind;
 
@@ -35,6 +35,8 @@ pub struct Body {
     pub angular_damping: f64,
     /// Whether it may fall asleep.
     pub can_sleep: bool,
+    /// How its surface runs along it, in its own frame, m/s: a conveyor. Empty: not at all.
+    pub surface_velocity: Vec<f64>,
     /// Colour in pictures as red, green, blue in 0..=1; `None`: chosen by the picture.
     pub colour: Option<[f64; 3]>,
 }
@@ -58,6 +60,7 @@ impl Body {
             linear_damping: 0.0,
             angular_damping: 0.0,
             can_sleep: true,
+            surface_velocity: Vec::new(),
             colour: None,
         }
     }
@@ -124,21 +127,4 @@ impl Body {
         self.colour = Some(colour);
         self
     }
-}
-
-/// What ties two bodies of a scene together.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Joint {
-    /// Keeps a point of one body on a point of another; all turns stay free.
-    Ball {
-        /// Name of the first body.
-        a: String,
-        /// Name of the second body.
-        b: String,
-        /// The point in the frame of `a`, m. Empty: its origin.
-        anchor_a: Vec<f64>,
-        /// The point in the frame of `b`, m. Empty: its origin.
-        anchor_b: Vec<f64>,
-    },
 }

@@ -1,11 +1,11 @@
-//! Bodies and joints.
+//! Bodies.
 
-use super::cursor::{At, unknown_key};
+use super::cursor::At;
 use super::{Result, rotation, shape};
-use crate::error::{ErrorKind, SceneError, nearest};
-use crate::model::{Body, BodyKind, Joint};
+use crate::error::{SceneError, nearest};
+use crate::model::{Body, BodyKind};
 
-pub(super) const BODY_KEYS: [&str; 15] = [
+pub(super) const BODY_KEYS: [&str; 16] = [
     "name",
     "kind",
     "shape",
@@ -20,12 +20,9 @@ pub(super) const BODY_KEYS: [&str; 15] = [
     "linear_damping",
     "angular_damping",
     "can_sleep",
+    "surface_velocity",
     "colour",
 ];
-
-/// Joints that the format knows; those after the first are not built yet.
-pub(super) const JOINTS: [&str; 6] = ["ball", "hinge", "weld", "slider", "distance", "motor"];
-const SUPPORTED_JOINTS: usize = 1;
 
 pub(super) fn body(at: &At<'_>) -> Result<Body> {
     let fields = at.fields("a body: an object with \"shape\" and more", &BODY_KEYS)?;
@@ -46,6 +43,7 @@ pub(super) fn body(at: &At<'_>) -> Result<Body> {
     body.linear_damping = fields.or("linear_damping", body.linear_damping, At::number)?;
     body.angular_damping = fields.or("angular_damping", body.angular_damping, At::number)?;
     body.can_sleep = fields.or("can_sleep", body.can_sleep, At::boolean)?;
+    body.surface_velocity = fields.or("surface_velocity", Vec::new(), At::coordinates)?;
     body.colour = fields.or("colour", None, |at| colour(at).map(Some))?;
     Ok(body)
 }
@@ -70,25 +68,4 @@ fn colour(at: &At<'_>) -> Result<[f64; 3]> {
         let message = format!("has {} numbers, expected 3: red, green, blue in 0..=1", numbers.len());
         SceneError::value(&at.path, message)
     })
-}
-
-pub(super) fn joint(at: &At<'_>) -> Result<Joint> {
-    let (key, inner) = at.variant("the kind of joint", &JOINTS)?;
-    match key {
-        "ball" => {
-            let fields = inner.fields("a ball joint", &["a", "b", "anchor_a", "anchor_b"])?;
-            Ok(Joint::Ball {
-                a: fields.required("a")?.text()?,
-                b: fields.required("b")?.text()?,
-                anchor_a: fields.or("anchor_a", Vec::new(), At::coordinates)?,
-                anchor_b: fields.or("anchor_b", Vec::new(), At::coordinates)?,
-            })
-        }
-        key if JOINTS.contains(&key) => Err(SceneError::new(
-            ErrorKind::Unsupported,
-            &at.path,
-            format!("\"{key}\" joints are not supported yet; supported: {}", JOINTS[..SUPPORTED_JOINTS].join(", ")),
-        )),
-        key => Err(unknown_key(&at.path, key, &JOINTS[..SUPPORTED_JOINTS])),
-    }
 }

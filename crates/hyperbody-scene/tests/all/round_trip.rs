@@ -1,8 +1,8 @@
 //! Scene → text → scene is the same scene, for the gallery and for every key of the format.
 
 use hyperbody_scene::{
-    Angle, AnyWorld, BUILT_IN, Body, BodyKind, Joint, NamedMaterial, Part, PolytopeSpec, RotationSpec, Scene,
-    ShapeSpec, Size, Turn,
+    Angle, AnyWorld, BUILT_IN, Body, BodyKind, Joint, JointKind, JointLimits, JointSpring, NamedMaterial, Part,
+    PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size, Turn,
 };
 
 fn assert_round_trip(scene: &Scene) {
@@ -58,6 +58,7 @@ fn everything() -> Scene {
     rotor[0] = 1.0;
     let mut turned = Body::new(ShapeSpec::regular("24-cell", 0.7));
     turned.rotation = RotationSpec::Rotor(rotor);
+    turned.surface_velocity = vec![0.5, 0.0, 0.0, -1.0];
     scene.bodies.push(turned);
     let edge = PolytopeSpec::Regular { name: "{3,3,4}".to_owned(), size: Size::Edge(1.0) };
     scene.bodies.push(Body::new(ShapeSpec::Polytope(edge).rounded(0.1)));
@@ -65,12 +66,25 @@ fn everything() -> Scene {
         (0..5).map(|k| (0..4).map(|axis| f64::from(u8::from(axis + 1 == k))).collect()).collect();
     scene.bodies.push(Body::new(ShapeSpec::Polytope(PolytopeSpec::Vertices(corners))));
     scene.bodies.push(Body::new(ShapeSpec::HalfSpace { normal: vec![0.0, 2.0, 0.0, 0.0], offset: -20.0 }).fixed());
-    scene.joints.push(Joint::Ball {
-        a: "a".to_owned(),
-        b: "b".to_owned(),
-        anchor_a: vec![0.0, 1.0, 0.0, 0.0],
-        anchor_b: Vec::new(),
-    });
+    scene.joints.push(Joint::new(JointKind::Ball, "a", "b").anchored([0.0, 1.0, 0.0, 0.0], []));
+    let mut hinge = Joint::with_world(JointKind::Hinge { plane: "wx".to_owned() }, "b").limited_deg(-30.0, 45.0);
+    hinge.rotation_a = RotationSpec::Turns(vec![Turn { plane: "xy".to_owned(), angle: Angle::Degrees(30.0) }]);
+    hinge.rotation_b = hinge.rotation_a.clone();
+    hinge.break_force = Some(1e3);
+    hinge.break_torque = Some(1e2);
+    hinge.collide = true;
+    scene.joints.push(hinge.driven(1.5, 10.0).sprung(0.1, 2.0, 0.7));
+    let mut slider = Joint::new(JointKind::Slider { along: "w".to_owned() }, "a", "b");
+    slider.limits = Some(JointLimits { range: [-0.5, 0.5], degrees: false });
+    slider.spring = Some(JointSpring { target: 0.0, hz: 1.0, damping_ratio: 1.0, max_force: Some(5.0) });
+    scene.joints.push(slider);
+    let mut rod = Joint::new(JointKind::Distance { length: 2.0 }, "a", "b");
+    rod.softness = Some([2.0, 0.5]);
+    scene.joints.push(rod);
+    for kind in [JointKind::Weld, JointKind::Axle { keeps: 2 }, JointKind::Rope { length: 1.5 }] {
+        scene.joints.push(Joint::new(kind, "a", "b"));
+    }
+    scene.joints.push(Joint::new(JointKind::Motor { plane: "xy".to_owned() }, "a", "b").driven(3.0, 1.0));
     scene
 }
 

@@ -18,7 +18,7 @@ use super::bodies::SolverBody;
 use super::colours::{ActiveContact, Group};
 use super::lanes::{Lanes, WIDTH};
 pub(crate) use layout::Layout;
-pub(crate) use prepare::{Prepare, invert_positive_definite, store};
+pub(crate) use prepare::{Prepare, store};
 pub(crate) use solve::{PassTimes, Passes};
 
 /// One group of contacts and where its rows are.

@@ -123,6 +123,7 @@ impl<const N: usize> Lane<'_, N> {
     fn sliding(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N]) {
         let r = self.offsets(centre);
         let (velocity, acceleration) = self.base_motion(r);
+        let velocity = velocity + self.b.surface - self.a.surface;
         let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); N];
         for t in 0..Layout::<N>::SLIDES {
             let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;

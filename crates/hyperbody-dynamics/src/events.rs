@@ -1,0 +1,240 @@
+//! What happened in the last step: touches, sleep, broken joints.
+//!
+//! Lists are made at the end of each step and stand until the next one; their order depends on bodies and joints alone:
+//! contacts by their two bodies' slots, the rest by when it happened. Bodies of several pieces touch once, however many of
+//! their pieces do. Pairs of which both bodies sleep or cannot move keep their touch without a word, and cost nothing
+//! but a look.
+
+use hyperbody_math::{Bivector, Vector};
+
+use crate::body::Body;
+use crate::{BodyHandle, JointHandle, World};
+
+/// What a touch did in the last step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactPhase {
+    /// The two had not touched in the step before.
+    Begin,
+    /// They had, and still do.
+    Stay,
+    /// They no longer do, or one of them is gone: its handle may be stale.
+    End,
+}
+
+/// Two bodies that touch, or have ceased to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactEvent<const N: usize> {
+    /// The two bodies; the one of the lower slot first.
+    pub bodies: (BodyHandle, BodyHandle),
+    /// What the touch did.
+    pub phase: ContactPhase,
+    /// Sum of the normal impulses of all points over the step, N·s: how hard it struck, or presses. Zero at the end.
+    pub impulse: f64,
+    /// Mean of the points, weighted by their impulses, in the world, m. Zero at the end.
+    pub point: Vector<N>,
+    /// Unit normal in the world, from the first body to the second, of the pieces that press most. Zero at the end.
+    pub normal: Vector<N>,
+}
+
+/// A joint that was loaded beyond its strength. It is gone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrokenJoint<const N: usize> {
+    /// What was its handle.
+    pub joint: JointHandle,
+    /// Its bodies; `None` is the world.
+    pub bodies: (Option<BodyHandle>, BodyHandle),
+    /// The force in its last step, on the second body, N.
+    pub force: Vector<N>,
+    /// The torque in its last step, N·m.
+    pub torque: Bivector<N>,
+}
+
+/// What happened in the last step.
+#[derive(Clone, Debug)]
+pub struct Events<const N: usize> {
+    contacts: Vec<ContactEvent<N>>,
+    woken: Vec<BodyHandle>,
+    slept: Vec<BodyHandle>,
+    broken: Vec<BrokenJoint<N>>,
+    /// Who touches whom, ascending.
+    touching: Vec<(BodyHandle, BodyHandle)>,
+    /// Touches of the step, one for each pair of pieces: buffer.
+    found: Vec<ContactEvent<N>>,
+    /// The next `touching`: buffer.
+    next: Vec<(BodyHandle, BodyHandle)>,
+}
+
+impl<const N: usize> Events<N> {
+    pub(crate) const fn new() -> Self {
+        Self {
+            contacts: Vec::new(),
+            woken: Vec::new(),
+            slept: Vec::new(),
+            broken: Vec::new(),
+            touching: Vec::new(),
+            found: Vec::new(),
+            next: Vec::new(),
+        }
+    }
+
+    /// Nothing happened; touches go on in silence.
+    pub(crate) fn forget_step(&mut self) {
+        self.contacts.clear();
+        self.woken.clear();
+        self.slept.clear();
+        self.broken.clear();
+    }
+
+    /// Touches that began, stayed or ended.
+    #[must_use]
+    pub fn contacts(&self) -> &[ContactEvent<N>] {
+        &self.contacts
+    }
+
+    /// Bodies that woke, in the step or by a call before it.
+    #[must_use]
+    pub fn woken(&self) -> &[BodyHandle] {
+        &self.woken
+    }
+
+    /// Bodies that fell asleep.
+    #[must_use]
+    pub fn slept(&self) -> &[BodyHandle] {
+        &self.slept
+    }
+
+    /// Joints that broke.
+    #[must_use]
+    pub fn broken_joints(&self) -> &[BrokenJoint<N>] {
+        &self.broken
+    }
+}
+
+impl<const N: usize> World<N> {
+    /// What happened in the last step. The lists stand until the next one.
+    #[must_use]
+    pub fn events(&self) -> &Events<N> {
+        &self.events
+    }
+
+    /// Makes the lists of the step that just ended.
+    pub(crate) fn collect_events(&mut self) {
+        self.break_joints();
+        self.find_touches();
+        self.compare_touches();
+        let (bodies, events) = (&self.bodies, &mut self.events);
+        events.woken.clear();
+        events.slept.clear();
+        for (slot, asleep) in self.islands.take_changes() {
+            let list = if asleep { &mut events.slept } else { &mut events.woken };
+            list.extend(bodies.handle_at(slot));
+        }
+    }
+
+    fn break_joints(&mut self) {
+        self.events.broken.clear();
+        for slot in 0..self.joints.slot_count() {
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+            let slot = slot as u32;
+            let Some(joint) = self.joints.at(slot) else { continue };
+            let (force, torque) = (joint.step_impulse * (1.0 / self.dt), joint.step_twist * (1.0 / self.dt));
+            if force.norm() <= joint.def.break_force && torque.norm() <= joint.def.break_torque {
+                continue;
+            }
+            let bodies = (joint.def.a, joint.def.b);
+            let Some(handle) = self.joints.handle_at(slot) else { continue };
+            if self.remove_joint(handle).is_ok() {
+                self.events.broken.push(BrokenJoint { joint: handle, bodies, force, torque });
+            }
+        }
+    }
+
+    /// Pairs of pieces that touch and of which one may move.
+    fn find_touches(&mut self) {
+        let mut found = std::mem::take(&mut self.events.found);
+        found.clear();
+        for pair in self.pairs.iter() {
+            let Some(contact) = pair.contact.as_deref().filter(|_| pair.points > 0) else { continue };
+            let points = contact.manifold.points().iter().zip(&contact.step_impulses);
+            let touches = points.clone().any(|(point, &impulse)| impulse > 0.0 || point.separation <= 0.0);
+            let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { continue };
+            if !touches || !(a.is_moving() || b.is_moving()) {
+                continue;
+            }
+            let handles = (self.bodies.handle_at(pair.body_a), self.bodies.handle_at(pair.body_b));
+            let (Some(handle_a), Some(handle_b)) = handles else { continue };
+            let (mut impulse, mut point) = (0.0, Vector::ZERO);
+            for (place, &part) in points {
+                impulse += f64::from(part);
+                point += place.position * f64::from(part);
+            }
+            let pressed = impulse > 0.0;
+            let first = contact.manifold.points().first().map_or(Vector::ZERO, |point| point.position);
+            let swap = handle_b.index < handle_a.index;
+            found.push(ContactEvent {
+                bodies: if swap { (handle_b, handle_a) } else { (handle_a, handle_b) },
+                phase: ContactPhase::Begin,
+                impulse,
+                point: if pressed { point * (1.0 / impulse) } else { first },
+                normal: if swap { -contact.manifold.normal } else { contact.manifold.normal },
+            });
+        }
+        // Stable: pieces of the same two bodies keep the order of their pairs.
+        found.sort_by_key(|touch| touch.bodies);
+        self.events.found = found;
+    }
+
+    /// Touches of this step beside those of the last one.
+    fn compare_touches(&mut self) {
+        let Events { contacts, touching, found, next, .. } = &mut self.events;
+        let bodies = &self.bodies;
+        contacts.clear();
+        next.clear();
+        let mut before = touching.iter().copied().peekable();
+        let end = |pair: (BodyHandle, BodyHandle), next: &mut Vec<_>, contacts: &mut Vec<_>| {
+            let still = |handle| bodies.get(handle).is_some_and(|body: &Body<N>| !body.is_moving());
+            if still(pair.0) && still(pair.1) {
+                next.push(pair);
+            } else {
+                let (point, normal) = (Vector::ZERO, Vector::ZERO);
+                contacts.push(ContactEvent { bodies: pair, phase: ContactPhase::End, impulse: 0.0, point, normal });
+            }
+        };
+        for touches in found.chunk_by(|a, b| a.bodies == b.bodies) {
+            let pair = touches[0].bodies;
+            while let Some(ended) = before.next_if(|&other| other < pair) {
+                end(ended, next, contacts);
+            }
+            let stays = before.next_if_eq(&pair).is_some();
+            let mut event = merged(touches);
+            if stays {
+                event.phase = ContactPhase::Stay;
+            }
+            contacts.push(event);
+            next.push(pair);
+        }
+        for ended in before {
+            end(ended, next, contacts);
+        }
+        std::mem::swap(touching, next);
+    }
+}
+
+/// The touches of the pieces of two bodies as one.
+fn merged<const N: usize>(touches: &[ContactEvent<N>]) -> ContactEvent<N> {
+    let mut event = touches[0];
+    let mut most = event.impulse;
+    let mut weighted = event.point * event.impulse;
+    for touch in &touches[1..] {
+        event.impulse += touch.impulse;
+        weighted += touch.point * touch.impulse;
+        if touch.impulse > most {
+            most = touch.impulse;
+            event.normal = touch.normal;
+        }
+    }
+    if event.impulse > 0.0 {
+        event.point = weighted * (1.0 / event.impulse);
+    }
+    event
+}

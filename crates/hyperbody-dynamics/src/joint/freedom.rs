@@ -1,0 +1,100 @@
+//! What one axis or one plane of a joint may do.
+
+use crate::WorldError;
+
+/// A drive towards a speed, of limited strength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motor {
+    /// m/s along an axis, rad/s in a plane; of the second body against the first.
+    pub speed: f64,
+    /// Most that it can push, N, or turn, N·m; ≥ 0.
+    pub max_force: f64,
+}
+
+/// A spring that draws to a place. Its stiffness follows from the masses, so that it swings at the frequency named whatever
+/// hangs on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// Where it draws to: m along an axis, rad in a plane.
+    pub target: f64,
+    /// Frequency without damping, Hz, > 0; capped at a quarter of the substep rate.
+    pub hz: f64,
+    /// 0 swings on (slowly losing a little to the integration), 1 comes to rest without overshoot.
+    pub damping_ratio: f64,
+    /// Most that it can pull, N, or turn, N·m; may be infinite.
+    pub max_force: f64,
+}
+
+/// One axis or plane of a joint: what is not locked moves freely between its limits, if it has some.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Freedom {
+    /// Nothing moves here.
+    pub locked: bool,
+    /// Least and greatest value, m or rad. Angles count from −π to π.
+    pub limits: Option<(f64, f64)>,
+    /// A drive towards a speed.
+    pub motor: Option<Motor>,
+    /// A drive towards a place.
+    pub spring: Option<Spring>,
+}
+
+impl Freedom {
+    /// Nothing moves.
+    pub const LOCKED: Self = Self { locked: true, limits: None, motor: None, spring: None };
+
+    /// Everything moves.
+    pub const FREE: Self = Self { locked: false, limits: None, motor: None, spring: None };
+
+    /// Whether it needs to know where it is, not only how fast it moves.
+    pub(crate) fn has_place(&self) -> bool {
+        self.limits.is_some() || self.spring.is_some()
+    }
+
+    pub(crate) fn is_driven(&self) -> bool {
+        self.has_place() || self.motor.is_some()
+    }
+
+    /// `largest` bounds angles.
+    pub(crate) fn validate(&self, what: &str, largest: f64) -> Result<(), WorldError> {
+        if self.locked && self.is_driven() {
+            return Err(WorldError::bad_number(format!(
+                "{what} is locked; it cannot have limits, a motor or a spring"
+            )));
+        }
+        if let Some((low, high)) = self.limits
+            && !(low.is_finite() && high.is_finite() && low < high && low >= -largest && high <= largest)
+        {
+            let range = if largest.is_finite() { " within −π..π" } else { "" };
+            return Err(WorldError::bad_number(format!(
+                "the limits of {what} are {low} and {high}; they must be finite, the lower one first{range} (lock what must not move)"
+            )));
+        }
+        if let Some(motor) = self.motor
+            && !(motor.speed.is_finite() && motor.max_force >= 0.0)
+        {
+            return Err(WorldError::bad_number(format!(
+                "the motor of {what} has speed {} and largest force {}; the speed must be finite and the force 0 or more",
+                motor.speed, motor.max_force
+            )));
+        }
+        if let Some(spring) = self.spring {
+            if !(spring.target.is_finite() && spring.max_force >= 0.0) {
+                return Err(WorldError::bad_number(format!(
+                    "the spring of {what} has target {} and largest force {}; the target must be finite and the force 0 or more",
+                    spring.target, spring.max_force
+                )));
+            }
+            check_spring(what, spring.hz, spring.damping_ratio)?;
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn check_spring(what: &str, hz: f64, damping_ratio: f64) -> Result<(), WorldError> {
+    if !(hz > 0.0 && hz.is_finite() && damping_ratio >= 0.0 && damping_ratio.is_finite()) {
+        return Err(WorldError::bad_number(format!(
+            "the spring of {what} has {hz} Hz and damping ratio {damping_ratio}; the frequency must be positive, the ratio 0 or more, both finite"
+        )));
+    }
+    Ok(())
+}

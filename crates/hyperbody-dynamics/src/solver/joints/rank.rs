@@ -1,0 +1,129 @@
+//! The table of joints and free motions in the documentation, from the rank of each joint's rows.
+
+use hyperbody_math::{Bivector, Matrix, Pose, Rotation, Vector, planes};
+
+use super::place::Place;
+use super::{JointRows, Row};
+use crate::joint::{Joint, JointDef};
+use crate::solver::bodies::{MAX_PLANES, SolverBody};
+use crate::{BodyHandle, joint::WORLD};
+
+const BODY: BodyHandle = BodyHandle { index: 0, generation: 0 };
+
+/// Rows of a matrix as its Gaussian elimination leaves them other than zero.
+fn rank(mut rows: Vec<Vec<f64>>) -> usize {
+    let columns = rows.first().map_or(0, Vec::len);
+    let mut rank = 0;
+    for column in 0..columns {
+        let Some(pivot) = (rank..rows.len()).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()))
+        else {
+            break;
+        };
+        if rows[pivot][column].abs() < 1e-9 {
+            continue;
+        }
+        rows.swap(rank, pivot);
+        let lead = rows[rank].clone();
+        for row in &mut rows[rank + 1..] {
+            let factor = row[column] / lead[column];
+            row.iter_mut().zip(&lead).for_each(|(entry, lead)| *entry -= factor * lead);
+        }
+        rank += 1;
+    }
+    rank
+}
+
+/// Free translations and turns: N less the rank of the held rows, as seen by the translations and turns of b about its anchor.
+fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize) {
+    let joint = Joint::new(def.clone(), def.groups().expect("closed"), (WORLD, Vector::ZERO), (0, Vector::ZERO));
+    let body = SolverBody {
+        slot: 0,
+        inverse_sqrt_mass: 1.0,
+        frame: None,
+        inverse_sqrt_moments: [1.0; MAX_PLANES],
+        centre: Vector::ZERO,
+        velocity: Vector::ZERO,
+        angular_velocity: Bivector::ZERO,
+        acceleration: Vector::ZERO,
+        angular_acceleration: Bivector::ZERO,
+        surface: Vector::ZERO,
+    };
+    let world = SolverBody { inverse_sqrt_mass: 0.0, ..body };
+    let (a, b) = (Place::new(0, None, Vector::ZERO), Place::new(1, None, Vector::ZERO));
+    let mut rows: Vec<Row<N>> = joint.rows.iter().map(|&spec| Row::new(spec, [0.0; 2])).collect();
+    let matrix = |rotation: Rotation<N>| *rotation.matrix();
+    let rows_of = JointRows {
+        slot: 0,
+        a: 0,
+        b: 1,
+        offset_a: joint.arm_a,
+        offset_b: joint.arm_b,
+        frame_a: matrix(joint.frames().0),
+        frame_b: matrix(joint.frames().1),
+        groups: joint.groups,
+        first: 0,
+        held: joint.held,
+        end: joint.rows.len(),
+        factors: 0,
+        soft: None,
+        max_impulse: f64::INFINITY,
+        max_twist: f64::INFINITY,
+        step_impulse: Vector::ZERO,
+        step_twist: Bivector::ZERO,
+        axes: Matrix::IDENTITY,
+    };
+    let geometry = rows_of.geometry(&a.now, &b.now, &rows);
+    rows.iter_mut().for_each(|row| geometry.fill(row, &a, &b, &[world, body]));
+    let held = &rows[..joint.held];
+    let linear = held.iter().map(|row| row.direction.iter().collect()).collect();
+    let angular = held.iter().map(|row| row.arm_b[..planes::count(N)].to_vec()).collect();
+    let both =
+        held.iter().map(|row| row.direction.iter().chain(row.arm_b[..planes::count(N)].iter().copied()).collect());
+    let (translations, turns) = (rank(linear), rank(angular));
+    assert_eq!(rank(both.collect()), held.len(), "the rows depend on each other");
+    (N - translations, planes::count(N) - turns)
+}
+
+fn check<const N: usize>() {
+    let frame: Pose<N> =
+        Pose::new(Rotation::exp(&Bivector::from_fn(|i, j| 0.3 * i as f64 - 0.2 * j as f64)), Vector::ZERO);
+    let turns = |n: usize| n * n.saturating_sub(1) / 2;
+    let expected: [(&str, JointDef<N>, (usize, usize)); 9] = [
+        ("free", JointDef::free(None, BODY), (N, turns(N))),
+        ("ball", JointDef::ball(None, BODY, Vector::ZERO, Vector::ZERO), (0, turns(N))),
+        ("hinge", JointDef::hinge(None, BODY, frame, frame, (0, 1)), (0, 1)),
+        ("axle of a line", JointDef::axle(None, BODY, frame, frame, 1), (0, turns(N - 1))),
+        ("axle of a plane", JointDef::axle(None, BODY, frame, frame, 2), (0, turns(N - 2))),
+        ("weld", JointDef::weld(None, BODY, frame, frame), (0, 0)),
+        ("slider", JointDef::slider(None, BODY, frame, frame, 1), (1, 0)),
+        ("rod", JointDef::distance(None, BODY, Vector::unit(0), Vector::ZERO, 1.0), (N - 1, turns(N))),
+        ("rope", JointDef::rope(None, BODY, Vector::unit(0), Vector::ZERO, 1.0), (N, turns(N))),
+    ];
+    let page = include_str!("../../joint/mod.rs");
+    for (name, def, free) in expected {
+        assert_eq!(free_motions(&def), free, "{name} in {N}D");
+        assert_eq!(def.free_motions(), free, "what {name} in {N}D says of itself");
+        let row = match name {
+            "free" => "no joint",
+            "axle of a line" => "axle that keeps a line",
+            "axle of a plane" => "axle that keeps a plane",
+            "rod" => "distance",
+            other => other,
+        };
+        let Some(line) = page.lines().find(|line| line.starts_with(&format!("//! | {row} |"))) else {
+            assert_eq!(name, "rope", "the table has no row \"{row}\"");
+            continue;
+        };
+        let cell = line.split('|').nth(N).map(str::trim);
+        assert_eq!(cell, Some(format!("{} + {}", free.0, free.1).as_str()), "the table's {row} in {N}D");
+    }
+}
+
+#[test]
+fn the_table_of_free_motions_is_the_rank_of_the_rows() {
+    check::<2>();
+    check::<3>();
+    check::<4>();
+    check::<5>();
+    check::<6>();
+}

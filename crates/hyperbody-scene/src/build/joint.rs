@@ -1,0 +1,102 @@
+//! Joints.
+
+use std::collections::BTreeMap;
+
+use hyperbody::math::{Dim, EvenAlgebra, planes};
+use hyperbody::prelude::{BodyHandle, Freedom, JointDef, Motor, Pose, Spring};
+
+use super::{Limit, Result, plane, quoted, rotation, vector_within};
+use crate::error::{SceneError, meant};
+use crate::model::{Joint, JointKind};
+
+/// The definition of a scene's joint; `names` and `handles` are those of its bodies.
+pub(super) fn joint<const N: usize>(
+    joint: &Joint,
+    path: &str,
+    names: &BTreeMap<String, usize>,
+    handles: &[BodyHandle],
+) -> Result<JointDef<N>>
+where
+    Dim<N>: EvenAlgebra,
+{
+    let path = format!("{path}.{}", joint.key());
+    let body = |name: &String, key: &str| {
+        let index = names.get(name.as_str()).ok_or_else(|| {
+            let hint = meant(name, names.keys().map(String::as_str)).map_or_else(
+                || format!("there are {}", quoted(names.keys().map(String::as_str))),
+                |near| format!("the nearest is \"{near}\""),
+            );
+            SceneError::value(format!("{path}.{key}"), format!("no body is called \"{name}\"; {hint}"))
+        })?;
+        Ok(handles[*index])
+    };
+    if let Some(a) = &joint.a
+        && *a == joint.b
+    {
+        return Err(SceneError::value(&path, format!("ties \"{a}\" to itself; a and b have to differ")));
+    }
+    let a = joint.a.as_ref().map(|a| body(a, "a")).transpose()?;
+    let b = body(&joint.b, "b")?;
+    let frame = |anchor: &[f64], turn, side: &str| {
+        let translation = vector_within::<N>(anchor, &format!("{path}.anchor_{side}"), Limit::PLACE)?;
+        Ok(Pose::new(rotation::rotation(turn, &format!("{path}.rotation_{side}"))?, translation))
+    };
+    let frame_a = frame(&joint.anchor_a, &joint.rotation_a, "a")?;
+    let frame_b = frame(&joint.anchor_b, &joint.rotation_b, "b")?;
+    let (from, to) = (frame_a.translation, frame_b.translation);
+    let mut def = match &joint.kind {
+        JointKind::Ball => JointDef::ball(a, b, from, to),
+        JointKind::Weld => JointDef::weld(a, b, frame_a, frame_b),
+        JointKind::Hinge { plane: name } => {
+            let (i, j) = plane::<N>(name, &format!("{path}.plane"))?;
+            JointDef::hinge(a, b, frame_a, frame_b, (i, j)).plane(i.min(j), i.max(j), freedom(joint, i > j))
+        }
+        JointKind::Axle { keeps } => {
+            let keeps = *keeps as usize;
+            if keeps > N {
+                let message = format!("is {keeps}; in {N} dimensions there are {N} axes to keep");
+                return Err(SceneError::value(format!("{path}.keeps"), message));
+            }
+            JointDef::axle(a, b, frame_a, frame_b, keeps)
+        }
+        JointKind::Slider { along } => {
+            let mut letters = along.chars();
+            let axis = letters.next().filter(|_| letters.next().is_none()).and_then(|c| planes::axis_from_name(N, c));
+            let axis = axis.ok_or_else(|| {
+                let known: String = planes::AXIS_NAMES[..N].iter().collect();
+                SceneError::value(format!("{path}.along"), format!("unknown axis \"{along}\"; the axes are {known}"))
+            })?;
+            JointDef::slider(a, b, frame_a, frame_b, axis).axis(axis, freedom(joint, false))
+        }
+        JointKind::Distance { length } => JointDef::distance(a, b, from, to, *length),
+        JointKind::Rope { length } => JointDef::rope(a, b, from, to, *length),
+        JointKind::Motor { plane: name } => {
+            let (i, j) = plane::<N>(name, &format!("{path}.plane"))?;
+            let free = JointDef::free(a, b).frames(frame_a, frame_b);
+            free.plane(i.min(j), i.max(j), freedom(joint, i > j)).collide(true)
+        }
+    };
+    def.softness = joint.softness.map(|[hz, ratio]| (hz, ratio));
+    def.break_force = joint.break_force.unwrap_or(f64::INFINITY);
+    def.break_torque = joint.break_torque.unwrap_or(f64::INFINITY);
+    def.collide |= joint.collide;
+    Ok(def)
+}
+
+/// The drives of what is free; `reversed` where the plane is named against the order of its axes.
+fn freedom(joint: &Joint, reversed: bool) -> Freedom {
+    let sign = if reversed { -1.0 } else { 1.0 };
+    let mut freedom = Freedom::FREE;
+    freedom.limits = joint.limits.map(|limits| {
+        let [least, greatest] = limits.range.map(|value| if limits.degrees { value.to_radians() } else { value });
+        if reversed { (-greatest, -least) } else { (least, greatest) }
+    });
+    freedom.motor = joint.motor.map(|motor| Motor { speed: sign * motor.speed, max_force: motor.max_force });
+    freedom.spring = joint.spring.map(|spring| Spring {
+        target: sign * spring.target,
+        hz: spring.hz,
+        damping_ratio: spring.damping_ratio,
+        max_force: spring.max_force.unwrap_or(f64::INFINITY),
+    });
+    freedom
+}
