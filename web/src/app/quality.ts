@@ -10,7 +10,7 @@ const ROOM = 1 / 55;
 const PATIENCE_DOWN = 1.2;
 const PATIENCE_UP = 6;
 /** Pixels of the picture for a pixel of the page (CSS). */
-const RATIOS = [0.4, 0.6, 0.8, 1, 1.5, 2] as const;
+const RATIOS = [0.55, 0.7, 0.85, 1, 1.5, 2] as const;
 const PLAIN = 3;
 
 export class QualityGuard {

@@ -17,9 +17,11 @@ const KEY_TURN = Math.PI / 36;
 
 export function Compass() {
   const playground = usePlayground();
-  const frame = playground.readout.value?.slice;
-  const dimension = playground.scene.value?.dimension ?? 4;
-  if (!frame || dimension === frame.shown) return null;
+  // Read for its sake: the compass is drawn anew as often as the readout.
+  if (!playground.readout.value) return null;
+  const { frame } = playground.slice;
+  const dimension = frame.rows.length;
+  if (dimension === frame.shown) return null;
   const planes = Array.from({ length: frame.shown }, (_, i) => Array.from({ length: dimension - frame.shown }, (_, j) => [i, j] as const)).flat();
   return (
     <section class="compass glass" aria-label={t().slice}>
