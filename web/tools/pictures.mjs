@@ -14,6 +14,10 @@ const MOMENTS = {
   bounce2d: 0.95, cradle2d: 0.5, clouds5d: 1.2, wing_nut3d: 1, net4d: 0.35, ramp4d: 0.3, ramp3d: 0.6, rolling4d: 0.6,
 };
 
+/** Moments before this are caught in slow motion, s. */
+const EARLY = 1;
+const SLOW = 0.1;
+
 const wanted = process.argv.slice(2);
 mkdirSync(OUT, { recursive: true });
 const [browser, server] = await Promise.all([launch(), serve()]);
@@ -23,9 +27,10 @@ await page.keyboard.press("c");
 const names = await page.locator("[data-scene]").evaluateAll((cards) => cards.map((card) => card.dataset.scene));
 await page.close();
 for (const name of wanted.length > 0 ? wanted : names) {
-  const { page: each, errors } = await open(context, server.address, { scene: name, query: "&detail=1" });
+  const moment = MOMENTS[name] ?? USUAL_MOMENT;
+  const { page: each, errors } = await open(context, server.address, { scene: name, query: `&detail=1&speed=${moment < EARLY ? SLOW : 1}` });
   await each.addStyleTag({ content: "#app > :not(.flatland) { display: none !important } .flatland { left: 20px !important; top: 20px !important; bottom: 20px !important; width: 46vw !important }" });
-  await each.waitForFunction((moment) => window.hyperbody.frame.time >= moment, MOMENTS[name] ?? USUAL_MOMENT, { timeout: 60_000 });
+  await each.waitForFunction((wantedTime) => window.hyperbody.frame.time >= wantedTime, moment, { timeout: 60_000 });
   await each.keyboard.press("Space");
   await each.waitForTimeout(500);
   const shot = (await each.screenshot({ type: "png" })).toString("base64");
