@@ -22,6 +22,11 @@ pub(crate) fn run(arguments: &ScenesArguments) -> Outcome {
     if arguments.check {
         return check();
     }
+    write()
+}
+
+/// Writes the generated files.
+pub(crate) fn write() -> Outcome {
     let path = root().join(GALLERY);
     std::fs::write(&path, gallery()?).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     println!("{GALLERY} written");

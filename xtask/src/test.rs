@@ -5,7 +5,7 @@ use std::time::Instant;
 use clap::Args;
 
 use crate::process::{cargo, run as run_command, succeeds};
-use crate::{Outcome, figures, hashes, playground, scenes};
+use crate::{Outcome, figures, hashes, pictures, playground, scenes};
 
 #[derive(Args)]
 pub(crate) struct TestArguments {
@@ -24,7 +24,7 @@ struct Stage {
     action: fn() -> Outcome,
 }
 
-const STAGES: [Stage; 9] = [
+const STAGES: [Stage; 10] = [
     Stage {
         name: "format",
         component: Some("rustfmt"),
@@ -41,6 +41,7 @@ const STAGES: [Stage; 9] = [
         action: || cargo_run(&["test", "--workspace", "--release"]),
     },
     Stage { name: "generated files", component: None, quick: false, action: scenes::check },
+    Stage { name: "pictures", component: None, quick: false, action: pictures::check },
     Stage { name: "figures", component: None, quick: false, action: figures::check },
     Stage { name: "state hashes", component: None, quick: false, action: hashes::check },
     Stage { name: "playground", component: None, quick: false, action: playground::check },

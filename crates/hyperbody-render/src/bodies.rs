@@ -21,6 +21,8 @@ pub(crate) struct Shown<const N: usize> {
     /// Centre of mass in the frame of the body, m.
     centre_in_body: Vector<N>,
     pub(crate) pose: Pose<N>,
+    /// Red, green and blue in sRGB, 0..=1, if they are not left to the picture.
+    pub(crate) colour: Option<[f64; 3]>,
 }
 
 impl<const N: usize> Shown<N> {
@@ -39,8 +41,19 @@ impl<const N: usize> Bodies<N> {
             shape: body.shape().clone(),
             centre_in_body: body.pose().inverse_transform_point(body.centre_of_mass()),
             pose: body.pose(),
+            colour: None,
         };
         Self { gravity: world.gravity(), all: world.bodies().map(|(_, body)| shown(body)).collect() }
+    }
+
+    /// Gives bodies colours of their own, in the order of [`World::bodies`]: red, green and blue in sRGB, 0..=1, or `None` for
+    /// one that the picture chooses.
+    #[must_use]
+    pub fn coloured(mut self, colours: impl IntoIterator<Item = Option<[f64; 3]>>) -> Self {
+        for (body, colour) in self.all.iter_mut().zip(colours) {
+            body.colour = colour;
+        }
+        self
     }
 
     /// Puts the bodies where they are at another moment, in the order of [`World::bodies`].

@@ -21,6 +21,11 @@ impl Rgb {
         Self([16, 8, 0].map(|shift| to_linear((hex >> shift & 255) as f32 / 255.0)))
     }
 
+    /// Red, green and blue in sRGB, 0..=1.
+    pub(crate) fn from_srgb(parts: [f64; 3]) -> Self {
+        Self(parts.map(|part| to_linear(part.clamp(0.0, 1.0) as f32)))
+    }
+
     /// Component by component.
     pub(crate) fn times(self, other: Self) -> Self {
         Self([self.0[0] * other.0[0], self.0[1] * other.0[1], self.0[2] * other.0[2]])

@@ -11,11 +11,11 @@ use crate::stage::{BodyLook, GHOST_REACH, Stage};
 /// How far from the others, in typical distances between them, a body has flown away and is left out of the picture.
 const FAR_AWAY: f64 = 5.0;
 
-/// Room around what is in the picture.
-const MARGIN: f64 = 1.06;
+/// Radius of the ball around a body that has to be in the picture, in radii of the body.
+const ROOM: f64 = 1.1;
 
-/// How much of a body's radius counts: corners reach out of a picture less than the ball around them.
-const ROUNDNESS: f64 = 0.85;
+/// Least distance, in radii of the largest body: a single one does not fill the picture from edge to edge.
+const LEAST_DISTANCE: f64 = 4.6;
 
 /// A camera that has the moving bodies in view that the slice cuts or nearly cuts, or all of them if there are none, but for
 /// the few that flew far away. `aspect` is width over height.
@@ -48,7 +48,9 @@ pub fn frame_all<const N: usize>(sights: &[(Bodies<N>, Slice<N>)], aspect: f64) 
         let wide = sight(from_target.dot(right), *radius, tangent * aspect);
         distance.max(outward.dot(from_target) + high.max(wide))
     });
-    camera.eye = camera.target + outward * if distance > 0.0 { MARGIN * distance } else { 6.0 };
+    let largest = balls.iter().map(|(_, radius)| radius / ROOM).fold(0.0, f64::max);
+    let distance = distance.max(LEAST_DISTANCE * largest);
+    camera.eye = camera.target + outward * if distance > 0.0 { distance } else { 6.0 };
     camera
 }
 
@@ -56,7 +58,7 @@ pub fn frame_all<const N: usize>(sights: &[(Bodies<N>, Slice<N>)], aspect: f64) 
 fn choose<const N: usize>(stages: &[Stage<N>]) -> Vec<(Vector<3>, f64)> {
     let balls = |choice: Choice| {
         let looks = stages.iter().flat_map(|stage| stage.bodies.iter().filter(move |look| choice.takes(stage, look)));
-        looks.map(|look| (look.seen_middle(), ROUNDNESS * look.radius)).collect::<Vec<_>>()
+        looks.map(|look| (look.seen_middle(), ROOM * look.radius)).collect::<Vec<_>>()
     };
     let choices = [Choice::Shown, Choice::Moving, Choice::Solid];
     choices.into_iter().map(balls).find(|balls| !balls.is_empty()).unwrap_or_default()

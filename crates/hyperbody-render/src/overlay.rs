@@ -49,7 +49,7 @@ fn strip<const N: usize>(image: &mut Image, stage: &Stage<N>, hidden: usize, uni
     let bar_width = (inner_width / bars.len() as f64 * 0.7).min(9.0 * f64::from(unit)).max(1.2);
     for (index, (look, [low, high])) in bars.iter().enumerate() {
         let centre = inner_left + inner_width * (index as f64 + 0.5) / bars.len() as f64;
-        let paint = if look.is_cut { colour::of_body(look.number) } else { colour::of_side(&look.middle[3..]) };
+        let paint = if look.is_cut { look.colour } else { colour::of_side(&look.middle[3..]) };
         let cover = if look.is_cut { 0.95 } else { 0.4 };
         let (from, to) = (middle - high * scale, middle - low * scale);
         rectangle(image, [centre - 0.5 * bar_width, from, centre + 0.5 * bar_width, to], encoder.bytes(paint), cover);

@@ -8,6 +8,7 @@ use hyperbody::math::{Pose, Vector};
 use hyperbody::prelude::BodyKind;
 
 use crate::bodies::Bodies;
+use crate::colour::{self, Rgb};
 use crate::slice::Slice;
 use crate::solid::{self, Solid};
 
@@ -51,8 +52,7 @@ pub(crate) struct Plane {
 #[derive(Clone, Debug)]
 pub(crate) struct BodyLook {
     pub(crate) kind: BodyKind,
-    /// Its number among those of its kind.
-    pub(crate) number: u32,
+    pub(crate) colour: Rgb,
     /// Whether the slice cuts it.
     pub(crate) is_cut: bool,
     /// The intervals that it takes up along the hidden directions; `None` for half-spaces.
@@ -149,7 +149,16 @@ impl<const N: usize> Stage<N> {
             let body_from_slice = body.pose.relative(slice.pose());
             let mut look = BodyLook {
                 kind: body.kind,
-                number: *number,
+                colour: body.colour.map_or_else(
+                    || {
+                        if body.kind == BodyKind::Dynamic {
+                            colour::of_body(*number)
+                        } else {
+                            colour::of_fixture(*number)
+                        }
+                    },
+                    Rgb::from_srgb,
+                ),
                 is_cut: false,
                 hidden_extents: None,
                 middle: slice.coordinates(body.centre()).iter().collect(),

@@ -5,7 +5,6 @@ use hyperbody::collision::ray::{Ray, RayHit};
 use hyperbody::geometry::shape::Piece;
 use hyperbody::geometry::{Convex, Core};
 use hyperbody::math::Vector;
-use hyperbody::prelude::BodyKind;
 
 use crate::colour::{self, Rgb};
 use crate::light::smooth;
@@ -89,8 +88,7 @@ impl<const N: usize> Stage<N> {
         let normal = solid.seen_normal(hit.normal).try_normalize().unwrap_or(-ray.direction);
         let distance = hit.fraction;
         let mut bent_normal = normal;
-        let mut albedo =
-            if look.kind == BodyKind::Dynamic { colour::of_body(look.number) } else { colour::of_fixture(look.number) };
+        let mut albedo = look.colour;
         if let (Some(facet), false) = (hit.facet, is_rounded(&solid.piece)) {
             albedo = tinted(albedo, facet, solid.part);
             if let Some(edge) = edge(solid, facet, hit.point, normal) {

@@ -18,6 +18,8 @@ pub(super) struct Timeline {
     /// The world before its first step: what there is. A recording and a simulation then differ in nothing but where the
     /// poses come from, and give the same pictures to the last bit.
     start: AnyWorld,
+    /// Of the bodies, as far as the scene gives them.
+    colours: Vec<Option<[f64; 3]>>,
     kind: Kind,
 }
 
@@ -40,14 +42,16 @@ impl Timeline {
             }
             let start = AnyWorld::new(recording.scene(), 1)
                 .map_err(|error| Failure::Input(format!("{argument}: the scene in the recording: {error}")))?;
-            let name = recording.scene().name.clone();
-            return Ok(Self { name, argument: argument.to_owned(), start, kind: Kind::Recorded(Box::new(recording)) });
+            let (name, colours) = (recording.scene().name.clone(), colours(recording.scene()));
+            let kind = Kind::Recorded(Box::new(recording));
+            return Ok(Self { name, argument: argument.to_owned(), start, colours, kind });
         }
         let scene = source::scene(argument)?;
         let start = AnyWorld::new(&scene, 1)?;
         let world = Box::new(AnyWorld::new(&scene, threads)?);
         let kind = Kind::Simulated { scene: Box::new(scene.clone()), world };
-        Ok(Self { name: scene.name, argument: argument.to_owned(), start, kind })
+        let colours = colours(&scene);
+        Ok(Self { name: scene.name, argument: argument.to_owned(), start, colours, kind })
     }
 
     /// What the scene is called.
@@ -137,7 +141,8 @@ impl Timeline {
         Dim<N>: EvenAlgebra,
     {
         let world = self.start.get::<N>();
-        let mut bodies = Bodies::of(world.ok_or_else(|| Failure::Work("the world has another dimension".to_owned()))?);
+        let world = world.ok_or_else(|| Failure::Work("the world has another dimension".to_owned()))?;
+        let mut bodies = Bodies::of(world).coloured(self.colours.iter().copied());
         let poses: Option<Vec<Pose<N>>> = (0..frame.body_count()).map(|body| frame.pose(body)).collect();
         let poses = poses.ok_or_else(|| {
             Failure::Input(format!("{}: step {} holds a matrix that is no rotation", self.argument, frame.step))
@@ -145,6 +150,10 @@ impl Timeline {
         bodies.place(&poses)?;
         Ok(bodies)
     }
+}
+
+fn colours(scene: &Scene) -> Vec<Option<[f64; 3]>> {
+    scene.bodies.iter().map(|body| body.colour).collect()
 }
 
 fn step_to(world: &mut AnyWorld, step: u64, what: &str) {

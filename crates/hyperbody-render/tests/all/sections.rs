@@ -6,8 +6,8 @@ use crate::common::{PIXEL, SIDE, covered, far_camera, settings, world_of};
 use hyperbody::geometry::section::{SectionPolytope, SliceFrame};
 use hyperbody::geometry::{Polytope, regular};
 use hyperbody::math::{Bivector, Pose, Rotation, Vector};
-use hyperbody::prelude::{BodyDef, Shape, World, WorldDef};
-use hyperbody_render::{Bodies, Settings, Slice, frame_bodies, render};
+use hyperbody::prelude::{BodyDef, BodyKind, Shape, World, WorldDef};
+use hyperbody_render::{Bodies, Camera, Settings, Slice, frame_all, frame_bodies, render};
 
 /// A rotation in every plane, by the same rule in every dimension.
 fn turned<const N: usize>(scale: f64) -> Rotation<N> {
@@ -143,6 +143,70 @@ fn the_same_bytes_with_any_number_of_threads() {
     same_bytes::<4>();
     same_bytes::<5>();
     same_bytes::<6>();
+}
+
+#[test]
+fn bodies_have_the_colours_that_they_are_given() {
+    let world = world_of(Shape::<4>::cuboid([1.5; 4]).unwrap(), Pose::IDENTITY);
+    let middle = |colour| {
+        let bodies = Bodies::of(&world).coloured([Some(colour)]);
+        let image = render(&bodies, &Slice::natural(), Some(&far_camera()), &settings(), &|_| ()).unwrap();
+        image.pixel(SIDE / 2, SIDE / 2).unwrap()
+    };
+    let ([red, green, _], [_, _, blue]) = (middle([1.0, 0.0, 0.0]), middle([0.0, 0.0, 1.0]));
+    assert!(red > 100 && green < red / 2 && blue > 100, "{red} {green} {blue}");
+}
+
+/// Where a point is in a square picture: from −1 to 1 across and upwards.
+fn in_picture(camera: &Camera, point: Vector<3>) -> [f64; 2] {
+    let cross = |a: Vector<3>, b: Vector<3>| {
+        Vector([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    };
+    let forward = (camera.target - camera.eye).try_normalize().unwrap();
+    let right = cross(forward, camera.up).try_normalize().unwrap();
+    let from_eye = point - camera.eye;
+    let scale = (0.5 * camera.field_of_view).tan() * from_eye.dot(forward);
+    [right, cross(right, forward)].map(|direction| from_eye.dot(direction) / scale)
+}
+
+/// One camera has all moments in view, and the bodies fill the picture from edge to edge one way at least.
+fn everything_is_in_view<const N: usize>() {
+    let (slice, mut world) = (Slice::<N>::natural(), heap::<N>());
+    let mut sights = vec![(Bodies::of(&world), slice)];
+    let mut points: Vec<Vector<3>> = Vec::new();
+    for _ in 0..2 {
+        let moving = world.bodies().filter(|(_, body)| body.kind() == BodyKind::Dynamic);
+        points.extend(moving.map(|(_, body)| Slice::seen(slice.coordinates(body.position()))));
+        (0..60).for_each(|_| world.step());
+        sights.push((Bodies::of(&world), slice));
+    }
+    let camera = frame_all(&sights, 1.0);
+    let places: Vec<[f64; 2]> = points.iter().map(|&point| in_picture(&camera, point)).collect();
+    let reach = |axis: usize| places.iter().map(|place| place[axis].abs()).fold(0.0, f64::max);
+    assert!(reach(0) < 0.95 && reach(1) < 0.95, "{places:?} in {N}D");
+    assert!(reach(0).max(reach(1)) > 0.5, "{places:?} in {N}D");
+}
+
+#[test]
+fn a_film_has_everything_in_view() {
+    everything_is_in_view::<2>();
+    everything_is_in_view::<3>();
+}
+
+#[test]
+fn a_body_that_flew_away_and_a_single_one_make_good_pictures() {
+    let mut world = heap::<4>();
+    let slice = Slice::natural();
+    let before = frame_bodies(&Bodies::of(&world), &slice, 1.5);
+    let lost = BodyDef::new(Shape::ball(0.5).unwrap()).position([1e4, 3.0, 0.0, 0.0]);
+    world.add_body(lost).unwrap();
+    let after = frame_bodies(&Bodies::of(&world), &slice, 1.5);
+    let (near, far) = (before.eye.distance(before.target), after.eye.distance(after.target));
+    assert!((near / far - 1.0).abs() < 0.2, "{near} m without it and {far} m with it");
+    let alone = world_of(Shape::<4>::ball(0.5).unwrap(), Pose::IDENTITY);
+    let camera = frame_bodies(&Bodies::of(&alone), &slice, 1.5);
+    let share = 0.5 / camera.eye.distance(camera.target) / (0.5 * camera.field_of_view).tan();
+    assert!((0.3..0.8).contains(&share), "the ball takes up {share} of the picture's height");
 }
 
 #[test]
