@@ -63,9 +63,10 @@ const SHOWN: [(&str, &str, &str); 4] = [
 ];
 
 /// What is better shown otherwise than after three seconds and cut at w = 0.
-const MOMENTS: [(&str, &str); 14] = [
+const MOMENTS: [(&str, &str); 15] = [
     ("bounce2d", "--at 0.8"),
     ("cradle2d", "--at 0.35"),
+    ("ramp3d", "--at 1.9"),
     ("wing_nut3d", "--at 1.9"),
     ("dominoes3d", "--at 3.5"),
     ("chain3d", "--at 0.9"),

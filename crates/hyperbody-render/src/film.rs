@@ -162,24 +162,108 @@ impl Changed {
         Self { left, top, width: right - left + 1, height: bottom - top + 1 }
     }
 
-    /// The rectangle, transparent where the picture before shows the same: long runs of one colour pack well, and the
+    /// The rectangle, transparent where the picture before shows the same: long runs of one colour pack well, and all
     /// colours go to what moves.
     fn frame(&self, image: &Image, last: &[u8]) -> gif::Frame<'static> {
-        let mut pixels = Vec::with_capacity(4 * self.width * self.height);
+        let mut moved = Vec::with_capacity(3 * self.width * self.height);
+        let mut is_moved = Vec::with_capacity(self.width * self.height);
         for y in self.top..self.top + self.height {
             let start = 3 * (y * image.width() as usize + self.left);
             for place in (start..start + 3 * self.width).step_by(3) {
                 let new = &image.bytes()[place..place + 3];
-                match last.get(place..place + 3) {
-                    Some(old) if old == new => pixels.extend([0; 4]),
-                    _ => pixels.extend([new[0], new[1], new[2], 255]),
+                let differs = last.get(place..place + 3) != Some(new);
+                is_moved.push(differs);
+                if differs {
+                    moved.extend(new);
                 }
             }
         }
         // Sides fit, as the whole picture does.
-        let mut frame = gif::Frame::from_rgba_speed(self.width as u16, self.height as u16, &mut pixels, SEARCH);
-        (frame.left, frame.top) = (self.left as u16, self.top as u16);
-        frame.dispose = gif::DisposalMethod::Keep;
-        frame
+        let (width, height) = (self.width as u16, self.height as u16);
+        let (palette, indices, transparent) = palette_of(&moved, self.width);
+        let mut indices = indices.into_iter();
+        let buffer: Vec<u8> =
+            is_moved.iter().map(|&moved| if moved { indices.next() } else { None }.unwrap_or(transparent)).collect();
+        gif::Frame {
+            left: self.left as u16,
+            top: self.top as u16,
+            width,
+            height,
+            dispose: gif::DisposalMethod::Keep,
+            transparent: Some(transparent),
+            palette: Some(palette),
+            buffer: buffer.into(),
+            ..gif::Frame::default()
+        }
+    }
+}
+
+/// Colours for pixels of red, green and blue, the index of each pixel among them, and an index that no pixel has. The search
+/// for colours wants a picture: the pixels are set in rows of `width`, the last one repeated.
+fn palette_of(pixels: &[u8], width: usize) -> (Vec<u8>, Vec<u8>, u8) {
+    let count = pixels.len() / 3;
+    if count == 0 {
+        return (vec![0; 3], Vec::new(), 0);
+    }
+    let mut rows = pixels.to_vec();
+    while rows.len() % (3 * width) != 0 {
+        rows.extend_from_within(rows.len() - 3..);
+    }
+    let frame = gif::Frame::from_rgb_speed(width as u16, (rows.len() / (3 * width)) as u16, &rows, SEARCH);
+    let (mut palette, mut indices) = (frame.palette.unwrap_or_default(), frame.buffer.into_owned());
+    indices.truncate(count);
+    if palette.len() / 3 < 256 {
+        let free = (palette.len() / 3) as u8;
+        palette.extend([0; 3]);
+        return (palette, indices, free);
+    }
+    // All 256 are taken: the two that are most alike become one.
+    let colour = |index: usize| [0, 1, 2].map(|part| i32::from(palette[3 * index + part]));
+    let apart =
+        |a: usize, b: usize| -> i32 { colour(a).into_iter().zip(colour(b)).map(|(a, b)| (a - b) * (a - b)).sum() };
+    let pairs = (0..256).flat_map(|b| (0..b).map(move |a| (a, b)));
+    let (kept, freed) = pairs.min_by_key(|&(a, b)| apart(a, b)).unwrap_or((0, 255));
+    for index in indices.iter_mut().filter(|index| usize::from(**index) == freed) {
+        *index = kept as u8;
+    }
+    (palette, indices, freed as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pixels of many colours, the same every time.
+    fn picture(seed: u32) -> Image {
+        let byte = |place: u32| (place.wrapping_mul(2_654_435_761).wrapping_add(seed) >> 24) as u8;
+        Image::new(40, 30, (0..40 * 30 * 3).map(byte).collect())
+    }
+
+    #[test]
+    fn a_gif_shows_what_changed_in_its_colours_and_keeps_the_rest() {
+        let first = picture(1);
+        let mut second = first.clone();
+        for x in 10..20 {
+            second.blend(x, 12, [250, 20, 30], 1.0);
+        }
+        let changed = Changed::between(first.bytes(), &second);
+        assert_eq!((changed.left, changed.top, changed.width, changed.height), (10, 12, 10, 1));
+        let frame = changed.frame(&second, first.bytes());
+        let palette = frame.palette.unwrap();
+        for &index in frame.buffer.iter() {
+            assert_ne!(Some(index), frame.transparent, "every pixel of the rectangle changed");
+            assert_eq!(&palette[3 * usize::from(index)..3 * usize::from(index) + 3], &[250, 20, 30]);
+        }
+        let same = Changed::between(first.bytes(), &first);
+        let frame = same.frame(&first, first.bytes());
+        assert_eq!((frame.width, frame.height, frame.buffer[0]), (1, 1, frame.transparent.unwrap()));
+    }
+
+    #[test]
+    fn an_index_is_free_where_all_colours_are_taken() {
+        let image = picture(7);
+        let (palette, indices, free) = palette_of(image.bytes(), 40);
+        assert_eq!((palette.len(), indices.len()), (3 * 256, 40 * 30));
+        assert!(indices.iter().all(|&index| index != free));
     }
 }

@@ -56,9 +56,11 @@ pub fn frame_all<const N: usize>(sights: &[(Bodies<N>, Slice<N>)], aspect: f64) 
 
 /// The balls around the bodies that matter, in coordinates of the slice.
 fn choose<const N: usize>(stages: &[Stage<N>]) -> Vec<(Vector<3>, f64)> {
+    // Flat bodies are drawn with a thickness, which comes closer to the eye.
+    let room = if N == 2 { 1.5 } else { ROOM };
     let balls = |choice: Choice| {
         let looks = stages.iter().flat_map(|stage| stage.bodies.iter().filter(move |look| choice.takes(stage, look)));
-        looks.map(|look| (look.seen_middle(), ROOM * look.radius)).collect::<Vec<_>>()
+        looks.map(|look| (look.seen_middle(), room * look.radius)).collect::<Vec<_>>()
     };
     let choices = [Choice::Shown, Choice::Moving, Choice::Solid];
     choices.into_iter().map(balls).find(|balls| !balls.is_empty()).unwrap_or_default()
