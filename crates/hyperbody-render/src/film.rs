@@ -206,7 +206,7 @@ fn palette_of(pixels: &[u8], width: usize) -> (Vec<u8>, Vec<u8>, u8) {
         return (vec![0; 3], Vec::new(), 0);
     }
     let mut rows = pixels.to_vec();
-    while rows.len() % (3 * width) != 0 {
+    while !rows.len().is_multiple_of(3 * width) {
         rows.extend_from_within(rows.len() - 3..);
     }
     let frame = gif::Frame::from_rgb_speed(width as u16, (rows.len() / (3 * width)) as u16, &rows, SEARCH);
