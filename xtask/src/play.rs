@@ -106,7 +106,11 @@ pub(crate) fn page() -> Outcome {
     let touched = fs::File::options().append(true).open(&script).and_then(|file| file.set_modified(SystemTime::now()));
     touched.map_err(|error| format!("{}: {error}", script.display()))?;
     let (plain, packed) = weight(&web.join("dist"))?;
-    println!("    {:.2} MB, {:.2} MB compressed", plain as f64 / 1e6, packed as f64 / 1e6);
+    println!(
+        "    {:.2} MB, {:.2} MB with gzip; with brotli about two thirds of that",
+        plain as f64 / 1e6,
+        packed as f64 / 1e6
+    );
     Ok(())
 }
 
