@@ -36,6 +36,7 @@ pub(crate) fn check() -> Outcome {
             println!("    skipped: the page's tests in a browser need Chromium; on Debian: `apt-get install chromium`");
             return Ok(());
         }
+        run_command(Command::new("apt-get").args(["update", "--quiet", "--quiet"]))?;
         run_command(Command::new("apt-get").args(["install", "--yes", "--no-install-recommends", "chromium"]))?;
     }
     // The page's tests ask the program that serves it, with the page in it.
