@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
 
 /// A folder with a small page, for one test.
 fn site(name: &str) -> PathBuf {
@@ -22,6 +22,8 @@ fn program() -> Command {
 /// A server that ends with the test.
 struct Serving {
     child: Child,
+    /// Kept open: a program whose reader has gone ends.
+    _output: BufReader<ChildStdout>,
     port: u16,
     address: String,
 }
@@ -32,11 +34,11 @@ impl Serving {
         command.args(["play", "--no-open", "--port", "0", "--site"]).arg(site).args(arguments);
         let mut child = command.stdout(Stdio::piped()).spawn().expect("the program starts");
         let mut line = String::new();
-        let output = child.stdout.take().expect("it is piped");
-        BufReader::new(output).read_line(&mut line).expect("it prints its address");
+        let mut output = BufReader::new(child.stdout.take().expect("it is piped"));
+        output.read_line(&mut line).expect("it prints its address");
         let address = line.trim().rsplit(' ').next().unwrap_or_default().to_owned();
         let port = address.split([':', '/']).find_map(|part| part.parse().ok());
-        Self { child, port: port.unwrap_or_else(|| panic!("no port in {line:?}")), address }
+        Self { child, _output: output, port: port.unwrap_or_else(|| panic!("no port in {line:?}")), address }
     }
 
     /// The head and the body of an answer.
