@@ -137,6 +137,10 @@ impl Aside<'_> {
     /// Gives the file its name.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         self.writer.flush().map_err(|error| self.target.unwritable(&error))?;
+        if !self.target.is_special() {
+            // Some file systems tell of a full disk only now.
+            self.writer.get_ref().sync_all().map_err(|error| self.target.unwritable(&error))?;
+        }
         self.finished = true;
         self.target.publish()
     }

@@ -29,6 +29,7 @@ impl<const N: usize> World<N> {
     }
 
     fn refit_boxes(&mut self) {
+        self.restart_ways();
         for (collider, motion) in self.colliders.iter_mut().zip(&mut self.motions) {
             let Some(collider) = collider else { continue };
             let Some(body) = self.bodies.at(collider.body) else { continue };
@@ -45,7 +46,9 @@ impl<const N: usize> World<N> {
             motion.way += match &collider.piece {
                 Piece::Convex(_) => moved(&collider.world_from_collider, &pose, collider.reach),
                 // Unbounded: wherever it turns, something is swept.
-                Piece::HalfSpace { .. } if pose != collider.world_from_collider => 2.0 * self.tuning.recycle_distance,
+                Piece::HalfSpace { .. } if pose != collider.world_from_collider => {
+                    2.0 * self.tuning.recycle_distance + self.tuning.speculative_distance
+                }
                 Piece::HalfSpace { .. } => 0.0,
             };
             collider.world_from_collider = pose;
@@ -61,6 +64,15 @@ impl<const N: usize> World<N> {
                 self.tree.update(proxy, collider.fat_aabb);
             }
         }
+    }
+
+    /// Counts all ways from zero again when one has become so long that small steps would be lost on it.
+    fn restart_ways(&mut self) {
+        if self.motions.iter().all(|motion| motion.way <= LONGEST_WAY) {
+            return;
+        }
+        self.motions.iter_mut().for_each(|motion| motion.way = 0.0);
+        self.pairs.slots_mut().iter_mut().flatten().for_each(|pair| pair.holds_until = f64::NEG_INFINITY);
     }
 
     fn drop_ended_pairs(&mut self) {
@@ -136,6 +148,9 @@ impl<const N: usize> World<N> {
             .any(|joint| (joint.body_a == other || joint.body_b == other) && !joint.def.collide)
     }
 }
+
+/// Longest way that is counted, m: beyond, a nanometre is lost in each step.
+const LONGEST_WAY: f64 = 1e6;
 
 fn may_collide<const N: usize>(a: &Body<N>, b: &Body<N>) -> bool {
     a.kind == BodyKind::Dynamic || b.kind == BodyKind::Dynamic

@@ -125,9 +125,9 @@ impl<const N: usize> World<N> {
         let (bodies, events) = (&self.bodies, &mut self.events);
         events.woken.clear();
         events.slept.clear();
-        for (slot, asleep) in self.islands.take_changes() {
+        for (handle, asleep) in self.islands.take_changes().filter(|(handle, _)| bodies.get(*handle).is_some()) {
             let list = if asleep { &mut events.slept } else { &mut events.woken };
-            list.extend(bodies.handle_at(slot));
+            list.push(handle);
         }
     }
 
@@ -138,7 +138,8 @@ impl<const N: usize> World<N> {
             let slot = slot as u32;
             let Some(joint) = self.joints.at(slot) else { continue };
             let (force, torque) = (joint.step_impulse * (1.0 / self.dt), joint.step_twist * (1.0 / self.dt));
-            if force.norm() <= joint.def.break_force && torque.norm() <= joint.def.break_torque {
+            // A load that is no number breaks nothing: its body is put into quarantine.
+            if !(force.norm() > joint.def.break_force || torque.norm() > joint.def.break_torque) {
                 continue;
             }
             let bodies = (joint.def.a, joint.def.b);

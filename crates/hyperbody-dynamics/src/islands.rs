@@ -5,7 +5,7 @@
 //! anything awake touches one of it, or the user does, all of it wakes. So no body is left hanging on a sleeping
 //! neighbour that has gone.
 
-use hyperbody_math::Vector;
+use hyperbody_math::{Bivector, Vector};
 
 use crate::body::Body;
 use crate::handle::Arena;
@@ -27,7 +27,7 @@ pub(crate) struct Islands {
     /// By root: whether something immovable holds a body of the island.
     held: Vec<bool>,
     /// Bodies that fell asleep (true) or woke since the list was last taken.
-    changes: Vec<(u32, bool)>,
+    changes: Vec<(BodyHandle, bool)>,
 }
 
 const NONE: u32 = u32::MAX;
@@ -53,8 +53,8 @@ impl Islands {
             if let Some(body) = bodies.at_mut(member) {
                 body.asleep_in = None;
                 body.slow_time = 0.0;
-                self.changes.push((member, false));
             }
+            self.changes.extend(bodies.handle_at(member).map(|handle| (handle, false)));
         }
         members.clear();
         self.sleeping[island as usize] = members;
@@ -81,7 +81,7 @@ impl Islands {
     }
 
     /// Who fell asleep (true) or woke since the last call, in order.
-    pub(crate) fn take_changes(&mut self) -> impl Iterator<Item = (u32, bool)> {
+    pub(crate) fn take_changes(&mut self) -> impl Iterator<Item = (BodyHandle, bool)> {
         self.changes.drain(..)
     }
 
@@ -141,7 +141,7 @@ impl<const N: usize> World<N> {
             self.islands.sleeping[island as usize].push(slot);
             if let Some(body) = self.bodies.at_mut(slot) {
                 body.fall_asleep_in(island);
-                self.islands.changes.push((slot, true));
+                self.islands.changes.extend(self.bodies.handle_at(slot).map(|handle| (handle, true)));
             }
         }
     }
@@ -173,16 +173,16 @@ impl<const N: usize> World<N> {
 
 impl<const N: usize> World<N> {
     /// What touches a kinematic body in motion, or is tied to it, is carried along, however slowly, and may not fall asleep;
-    /// nor may what gravity pulls and nothing immovable holds, however slowly it still falls.
+    /// nor may what gravity or a steady force pulls and nothing immovable holds, however slowly it still moves.
     fn keep_moved_awake(&mut self) {
         let mut held = std::mem::take(&mut self.islands.held);
         held.clear();
-        held.resize(self.bodies.slot_count(), self.gravity == Vector::ZERO);
+        held.resize(self.bodies.slot_count(), false);
         let presses = |contact: &Contact<N>| contact.step_impulses.iter().any(|&impulse| impulse > 0.0);
         let pressed = self.pairs.iter().filter(|pair| pair.contact.as_deref().is_some_and(presses));
-        let contacts = pressed.map(|pair| (pair.body_a, pair.body_b));
-        let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b));
-        for (a, b) in contacts.chain(joints) {
+        let contacts = pressed.map(|pair| (pair.body_a, pair.body_b, true));
+        let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b, false));
+        for (a, b, touch) in contacts.chain(joints) {
             for (body, other) in [(a, b), (b, a)] {
                 let other = self.bodies.at(other);
                 if body == WORLD || other.is_some_and(Body::is_moving) {
@@ -190,7 +190,7 @@ impl<const N: usize> World<N> {
                 }
                 let root = self.islands.find(body) as usize;
                 held[root] = true;
-                if other.is_some_and(Body::drifts) {
+                if other.is_some_and(|other| other.drifts() || (touch && other.runs())) {
                     self.islands.least_slow_time[root] = 0.0;
                 }
             }
@@ -200,7 +200,8 @@ impl<const N: usize> World<N> {
             let Some(body) = self.bodies.at(slot as u32).filter(|body| body.is_moving()) else { continue };
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             let root = self.islands.find(slot as u32) as usize;
-            if !held[root] && body.gravity_scale != 0.0 {
+            let pull = self.gravity * body.gravity_scale + body.steady_force * body.inverse_mass;
+            if !held[root] && (pull != Vector::ZERO || body.steady_torque != Bivector::ZERO) {
                 self.islands.least_slow_time[root] = 0.0;
             }
         }

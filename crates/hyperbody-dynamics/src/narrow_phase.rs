@@ -134,8 +134,8 @@ impl<const N: usize> Update<'_, N> {
     /// Brings a pair up to date, by the cheapest of three ways that does: carrying along what was found before.
     fn pair(&self, pair: &mut Pair<N>, scratch: &mut Scratch<N>) {
         let (a, b) = (&self.motions[pair.collider_a as usize], &self.motions[pair.collider_b as usize]);
-        // Between sleepers and the immovable nothing changed.
-        if !(a.awake || b.awake) {
+        // Between sleepers and the immovable nothing changed; what is in quarantine is to be forgotten.
+        if !(a.awake || b.awake || a.speed.is_infinite() || b.speed.is_infinite()) {
             return;
         }
         // What was left out of the kept manifold was farther apart than the margin, and stays out of reach.

@@ -11,7 +11,7 @@ impl<const N: usize> World<N> {
     /// as a body of that velocity does. It rests again after that step unless it is led on.
     ///
     /// # Errors
-    /// If there is no such body, it is not kinematic, or the pose is not finite, out of bounds, or farther away than
+    /// If there is no such body, it is not kinematic or in quarantine, or the pose is not finite, out of bounds, or farther away than
     /// [`Tuning::max_speed`](crate::Tuning::max_speed) reaches in a step: [`BodyMut::set_pose`](crate::BodyMut::set_pose)
     /// puts bodies elsewhere without a way.
     pub fn move_kinematic(&mut self, handle: BodyHandle, world_from_body: Pose<N>) -> Result<(), WorldError> {
@@ -22,6 +22,10 @@ impl<const N: usize> World<N> {
                 WorldErrorKind::NotAllowed,
                 format!("only kinematic bodies are led to a pose; this one is {:?}", body.kind),
             ));
+        }
+        if body.quarantined {
+            let message = "the body is in quarantine; set_pose brings it back".to_owned();
+            return Err(WorldError::new(WorldErrorKind::NotAllowed, message));
         }
         let centre = world_from_body.transform_point(body.centre_in_body);
         if !(centre.is_finite() && world_from_body.rotation.matrix().is_finite()) {

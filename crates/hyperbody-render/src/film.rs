@@ -24,7 +24,12 @@ pub struct Film<W: Write> {
 }
 
 enum Encoder<W: Write> {
-    Gif { encoder: Box<gif::Encoder<W>>, centiseconds: u16 },
+    Gif {
+        encoder: Box<gif::Encoder<W>>,
+        frames_per_second: u16,
+        /// Of the next picture, within its second.
+        number: u16,
+    },
     Apng(Box<png::Writer<W>>),
 }
 
@@ -36,6 +41,13 @@ pub const MAX_GIF_RATE: u16 = 50;
 
 /// How much the colours of a GIF are searched for, 1 (most) to 30.
 const SEARCH: i32 = 10;
+
+/// When picture `number` begins, in hundredths of a second to the nearest: rounding every delay alike would make films of most
+/// rates too slow or too fast.
+fn centiseconds(number: u16, frames_per_second: u16) -> u16 {
+    let rate = u32::from(frames_per_second);
+    u16::try_from((200 * u32::from(number) + rate) / (2 * rate)).unwrap_or(u16::MAX)
+}
 
 impl<W: Write> Film<W> {
     /// Begins a film of `frames` pictures.
@@ -73,10 +85,7 @@ impl<W: Write> Film<W> {
                 };
                 let mut encoder = gif::Encoder::new(writer, side(width)?, side(height)?, &[])?;
                 encoder.set_repeat(gif::Repeat::Infinite)?;
-                Encoder::Gif {
-                    encoder: Box::new(encoder),
-                    centiseconds: (100 + frames_per_second / 2) / frames_per_second,
-                }
+                Encoder::Gif { encoder: Box::new(encoder), frames_per_second, number: 0 }
             }
             FilmFormat::Apng => {
                 let mut encoder = png::Encoder::new(writer, width, height);
@@ -106,10 +115,11 @@ impl<W: Write> Film<W> {
             )));
         }
         match &mut self.encoder {
-            Encoder::Gif { encoder, centiseconds } => {
+            Encoder::Gif { encoder, frames_per_second, number } => {
                 let changed = Changed::between(&self.last, image);
                 let mut frame = changed.frame(image, &self.last);
-                frame.delay = *centiseconds;
+                frame.delay = centiseconds(*number + 1, *frames_per_second) - centiseconds(*number, *frames_per_second);
+                *number = (*number + 1) % *frames_per_second;
                 encoder.write_frame(&frame)?;
                 self.last.clear();
                 self.last.extend(image.bytes());
@@ -257,6 +267,18 @@ mod tests {
         let same = Changed::between(first.bytes(), &first);
         let frame = same.frame(&first, first.bytes());
         assert_eq!((frame.width, frame.height, frame.buffer[0]), (1, 1, frame.transparent.unwrap()));
+    }
+
+    #[test]
+    fn a_gif_takes_as_long_as_its_pictures() {
+        for rate in 1..=MAX_GIF_RATE {
+            let delays = (0..rate).map(|number| centiseconds(number + 1, rate) - centiseconds(number, rate));
+            let (shortest, sum) = delays.fold((u16::MAX, 0), |(least, sum), delay| (least.min(delay), sum + delay));
+            assert!(
+                sum == 100 && shortest >= 2,
+                "{rate} pictures a second last {sum} hundredths, one of them {shortest}"
+            );
+        }
     }
 
     #[test]

@@ -85,7 +85,7 @@ impl<const N: usize> Stage<N> {
     fn body_surface(&self, index: u32, hit: &RayHit<N>, ray: &Ray<3>, pixel_angle: f64) -> Seen {
         let solid = &self.cut.solids[index as usize];
         let look = &self.bodies[solid.body as usize];
-        let normal = solid.seen_normal(hit.normal).try_normalize().unwrap_or(-ray.direction);
+        let normal = solid.seen_normal(hit.normal, ray.direction).try_normalize().unwrap_or(-ray.direction);
         let distance = hit.fraction;
         let mut bent_normal = normal;
         let mut albedo = look.colour;
@@ -150,7 +150,7 @@ impl<const N: usize> Stage<N> {
         for (index, hit) in &hits {
             let solid = &self.ghosts.solids[*index as usize];
             let look = &self.bodies[solid.body as usize];
-            let normal = solid.seen_normal(hit.normal).try_normalize().unwrap_or(-ray.direction);
+            let normal = solid.seen_normal(hit.normal, ray.direction).try_normalize().unwrap_or(-ray.direction);
             let fade = 1.0 - look.gap().unwrap_or(0.0) / (GHOST_REACH * self.size);
             let facing = (-normal.dot(ray.direction)).clamp(0.0, 1.0) as f32;
             let rim = (1.0 - facing) * (1.0 - facing);
@@ -216,7 +216,7 @@ fn tinted(albedo: Rgb, facet: u32, part: u32) -> Rgb {
 fn edge<const N: usize>(solid: &Solid<N>, facet: u32, local: Vector<N>, normal: Vector<3>) -> Option<Edge> {
     let mut nearest: Option<Edge> = None;
     let mut consider = |gap: f64, beside: Vector<N>| {
-        let seen = solid.seen_normal(beside);
+        let seen = solid.seen_normal(beside, -normal);
         let along = (seen - normal * normal.dot(seen)).norm();
         if along > 1e-6 {
             let distance = (gap / along).max(0.0);

@@ -173,6 +173,10 @@ impl<const N: usize> BodyMut<'_, N> {
             self.body.angular_velocity = Bivector::ZERO;
             self.body.angular_momentum = Bivector::ZERO;
         }
+        if self.body.stop_leading() {
+            self.body.velocity = Vector::ZERO;
+            self.body.angular_velocity = Bivector::ZERO;
+        }
         let angular_velocity = self.body.angular_velocity;
         self.body.rotation = world_from_body.rotation;
         self.body.centre = centre;
@@ -190,6 +194,9 @@ impl<const N: usize> BodyMut<'_, N> {
         let velocity = velocity.into();
         finite(velocity, "velocity")?;
         self.refuse_static("a velocity")?;
+        if self.body.stop_leading() {
+            self.body.angular_velocity = Bivector::ZERO;
+        }
         self.body.velocity = velocity;
         self.wake();
         Ok(())
@@ -202,6 +209,9 @@ impl<const N: usize> BodyMut<'_, N> {
     pub fn set_angular_velocity(&mut self, angular_velocity: Bivector<N>) -> Result<(), WorldError> {
         finite_bivector(&angular_velocity, "angular velocity")?;
         self.refuse_static("an angular velocity")?;
+        if self.body.stop_leading() {
+            self.body.velocity = Vector::ZERO;
+        }
         self.store_angular_velocity(angular_velocity);
         self.wake();
         Ok(())

@@ -224,6 +224,11 @@ impl<const N: usize> Body<N> {
         self.kind == BodyKind::Kinematic && !self.quarantined && !still
     }
 
+    /// A conveyor: its surface moves though the body may stand.
+    pub(crate) fn runs(&self) -> bool {
+        self.surface_velocity != Vector::ZERO && !self.quarantined
+    }
+
     /// Comes to a full stop and rests until its island wakes.
     pub(crate) fn fall_asleep_in(&mut self, island: u32) {
         self.asleep_in = Some(island);
@@ -254,9 +259,17 @@ impl<const N: usize> Body<N> {
             && self.torque.is_finite()
     }
 
+    /// Ends being led from pose to pose; true if the body's velocities came from that.
+    pub(crate) fn stop_leading(&mut self) -> bool {
+        let led = self.led_to.take().is_some() || self.arrived;
+        self.arrived = false;
+        led
+    }
+
     /// Takes the body out of the simulation, at rest at the given centre and attitude.
     pub(crate) fn quarantine(&mut self, (centre, rotation): (Vector<N>, Rotation<N>)) {
         self.quarantined = true;
+        self.stop_leading();
         self.centre = centre;
         self.rotation = rotation;
         self.force = Vector::ZERO;

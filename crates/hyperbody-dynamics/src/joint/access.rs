@@ -155,6 +155,8 @@ impl<const N: usize> World<N> {
     /// # Errors
     /// If there is no such joint, or the frame is not finite.
     pub fn set_joint_frame(&mut self, handle: JointHandle, frame: Pose<N>) -> Result<(), WorldError> {
+        let base = self.joints.get(handle).ok_or_else(|| stale("joint"))?.body_a;
+        let centre_a = self.bodies.at(base).map_or(Vector::ZERO, |body| body.centre_in_body);
         let joint = self.joints.get_mut(handle).ok_or_else(|| stale("joint"))?;
         if !(frame.translation.is_finite() && frame.rotation.matrix().is_finite()) {
             return Err(WorldError::bad_number(format!(
@@ -165,7 +167,7 @@ impl<const N: usize> World<N> {
         if joint.def.frame_a == frame {
             return Ok(());
         }
-        joint.arm_a += frame.translation - joint.def.frame_a.translation;
+        joint.arm_a = frame.translation - centre_a;
         joint.def.frame_a = frame;
         self.wake_ends(handle);
         Ok(())

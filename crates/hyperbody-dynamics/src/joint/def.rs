@@ -267,7 +267,7 @@ impl<const N: usize> JointDef<N> {
         if self.softness.is_some() {
             return (N, planes::count(N));
         }
-        (self.axes.iter().filter(held).count() - rod, self.planes.iter().filter(held).count())
+        (self.axes.iter().filter(held).count().saturating_sub(rod), self.planes.iter().filter(held).count())
     }
 
     /// Adds a motor to a plane, which must be free.

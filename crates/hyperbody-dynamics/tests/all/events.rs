@@ -155,3 +155,17 @@ fn a_joint_reports_the_weight_that_hangs_on_it() {
     let torque = joint.torque();
     assert!((torque.get(0, 1) - 3.0 * 9.81).abs() < 1e-2, "{torque:?}");
 }
+
+/// A body in the slot of one that slept was never woken.
+#[test]
+fn nobody_wakes_in_the_place_of_a_removed_sleeper() {
+    let mut world = World::<3>::new(WorldDef::default()).unwrap();
+    add_floor(&mut world, material(0.5, 0.0));
+    let sleeper = world.add_body(BodyDef::new(cuboid(Vector::splat(0.5))).position(Vector::unit(1) * 0.5)).unwrap();
+    run(&mut world, 2.0);
+    assert!(world.body(sleeper).unwrap().is_sleeping());
+    world.remove_body(sleeper).unwrap();
+    let next = world.add_body(BodyDef::new(cuboid(Vector::splat(0.5))).position(Vector::unit(1) * 3.0)).unwrap();
+    world.step();
+    assert!(!world.events().woken().contains(&next), "it never slept");
+}

@@ -196,6 +196,32 @@ fn a_spring_swings_at_its_frequency() {
     spring::<5>();
 }
 
+/// A spring that holds a hinge near half a turn swings about its target across the half turn, and not all the way round.
+#[test]
+fn a_spring_of_a_plane_takes_the_short_way_round() {
+    let mut world = world(Vector::<4>::ZERO);
+    let start = Pose::new(Rotation::in_plane(0, 3, 2.5), Vector::ZERO);
+    let body = world.add_body(BodyDef::new(cuboid(Vector::splat(0.3))).rotation(start.rotation)).unwrap();
+    let spring = Spring { target: 3.0, hz: 1.0, damping_ratio: 0.0, max_force: f64::INFINITY };
+    let hinge = JointDef::hinge(None, body, Pose::IDENTITY, Pose::IDENTITY, (0, 3)).angle_spring(0, 3, spring);
+    world.add_joint(hinge).unwrap();
+    for _ in 0..120 {
+        world.step();
+        let matrix = world.body(body).unwrap().pose().rotation;
+        let off = (matrix * Rotation::in_plane(0, 3, -3.0)).log().norm();
+        assert!(off < 0.52, "{off} rad from its target");
+    }
+}
+
+#[test]
+fn a_rod_that_leaves_nothing_counts_nothing() {
+    let mut world = world(Vector::<3>::ZERO);
+    let body = world.add_body(BodyDef::new(ball(0.3))).unwrap();
+    let mut def = JointDef::<3>::ball(None, body, Vector::ZERO, Vector::ZERO);
+    def.distance = Some((1.0, 1.0));
+    assert_eq!(def.free_motions(), (0, 3));
+}
+
 /// A rope is nothing until it is taut: then the load swings on it as a pendulum does.
 fn rope<const N: usize>() {
     let mut world = World::<N>::new(WorldDef { dt: 1.0 / 240.0, sleeping: false, ..WorldDef::default() }).unwrap();

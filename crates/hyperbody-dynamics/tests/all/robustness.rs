@@ -336,6 +336,7 @@ fn a_body_let_out_of_quarantine_where_it_was_rests_as_before() {
     world.step();
     assert_eq!(world.quarantined(), [cube]);
     run(&mut world, 0.5);
+    assert_eq!(world.contacts().count(), 0, "what is in quarantine touches nothing");
     world.body_mut(cube).unwrap().set_pose(pose).unwrap();
     for _ in 0..60 {
         world.step();
@@ -450,4 +451,37 @@ fn shapes_may_be_static_half_spaces_only() {
     let half_space = Shape::<3>::half_space(Vector::unit(1), 0.0).unwrap();
     let mut world = world(down::<3>());
     assert!(world.add_body(BodyDef::new(half_space).kind(BodyKind::Kinematic)).is_err());
+}
+
+/// After a journey on which small steps would be lost, contacts follow as before.
+#[test]
+fn a_body_back_from_afar_falls_off_a_table() {
+    let mut world = world(down::<3>());
+    let table = BodyDef::fixed(cuboid(Vector([1.0, 0.5, 1.0]))).material(material(0.0, 0.0));
+    world.add_body(table).unwrap();
+    let half = Vector::splat(0.2);
+    let slider = world.add_body(BodyDef::new(cuboid(half)).material(material(0.0, 0.0))).unwrap();
+    world.body_mut(slider).unwrap().set_pose(Pose::from_translation(Vector::unit(0) * 1e15)).unwrap();
+    world.step();
+    let start = Vector([0.5, 0.7, 0.0]);
+    world.body_mut(slider).unwrap().set_pose(Pose::from_translation(start)).unwrap();
+    world.body_mut(slider).unwrap().set_velocity(Vector::unit(0) * 0.4).unwrap();
+    run(&mut world, 3.0);
+    let place = world.body(slider).unwrap().position();
+    assert!(place[1] < -1.0, "it hangs at {place:?}");
+}
+
+/// A floor that is put elsewhere is met, even where no contact is ever carried along.
+#[test]
+fn a_floor_lifted_into_a_resting_body_is_felt() {
+    let tuning = Tuning { recycle_distance: 0.0, ..Tuning::default() };
+    let def = WorldDef { gravity: Vector::<3>::ZERO, sleeping: false, tuning, ..WorldDef::default() };
+    let mut world = World::new(def).unwrap();
+    let floor = add_floor(&mut world, material(0.5, 0.0));
+    let cube = world.add_body(BodyDef::new(cuboid(Vector::splat(0.5))).position(Vector::unit(1) * 0.51)).unwrap();
+    run(&mut world, 0.2);
+    world.body_mut(floor).unwrap().set_pose(Pose::from_translation(Vector::unit(1) * 0.1)).unwrap();
+    run(&mut world, 1.0);
+    let place = world.body(cube).unwrap().position()[1];
+    assert!(place > 0.59, "the cube stands {} m in the floor", 0.6 - place);
 }

@@ -94,3 +94,39 @@ fn steady_forces_go_on() {
     steady::<3>();
     steady::<6>();
 }
+
+/// Who is led and then given a velocity, or put elsewhere, does that and no longer what it was led to.
+#[test]
+fn a_new_wish_ends_being_led() {
+    let mut world = world(Vector::<4>::ZERO);
+    let body = world.add_body(BodyDef::new(ball(0.5)).kind(BodyKind::Kinematic)).unwrap();
+    world.move_kinematic(body, Pose::from_translation(Vector::unit(0) * 0.1)).unwrap();
+    world.step();
+    world.body_mut(body).unwrap().set_velocity(Vector::unit(1)).unwrap();
+    world.step();
+    let place = world.body(body).unwrap().position();
+    assert!((place - Vector([0.1, world.dt(), 0.0, 0.0])).norm() < 1e-12, "it moves on at its own velocity: {place:?}");
+    world.move_kinematic(body, Pose::from_translation(Vector::unit(0) * 0.2)).unwrap();
+    world.body_mut(body).unwrap().set_pose(Pose::from_translation(Vector::unit(3) * 5.0)).unwrap();
+    world.step();
+    assert_eq!(world.body(body).unwrap().position(), Vector::unit(3) * 5.0, "it stays where it was put");
+    assert_eq!(world.body(body).unwrap().velocity(), Vector::ZERO);
+}
+
+/// However slow: a thruster in empty space, a belt below the speed at which bodies fall asleep.
+#[test]
+fn what_is_pushed_or_carried_slowly_does_not_fall_asleep() {
+    let mut space = World::<4>::new(WorldDef { gravity: Vector::ZERO, ..WorldDef::default() }).unwrap();
+    let ship = space.add_body(BodyDef::new(ball(0.5)).mass(1.0)).unwrap();
+    space.body_mut(ship).unwrap().set_steady_force(Vector::unit(0) * 0.01, Bivector::ZERO).unwrap();
+    run(&mut space, 4.0);
+    assert_close("way of the ship", space.body(ship).unwrap().position()[0], 0.5 * 0.01 * 16.0, 0.01);
+
+    let mut world = World::<3>::new(WorldDef::default()).unwrap();
+    let belt = BodyDef::fixed(cuboid(Vector([5.0, 0.5, 5.0]))).surface_velocity(Vector::unit(0) * 0.03);
+    world.add_body(belt).unwrap();
+    let load = world.add_body(BodyDef::new(cuboid(Vector::splat(0.2))).position(Vector::unit(1) * 0.7)).unwrap();
+    run(&mut world, 4.0);
+    let way = world.body(load).unwrap().position()[0];
+    assert!((way - 0.12).abs() < 0.01, "the belt carried its load by {way} m");
+}

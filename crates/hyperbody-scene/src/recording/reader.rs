@@ -12,7 +12,10 @@ use crate::model::Scene;
 use crate::read::MAX_FILE_BYTES;
 
 /// Most files that a recording carries.
-const MAX_FILES: usize = 10_000;
+pub(super) const MAX_FILES: usize = 10_000;
+
+/// Most bytes of all carried files together, unpacked.
+pub(super) const MAX_CARRIED_BYTES: u64 = 256 << 20;
 
 /// A recording that is open for reading. Opening reads the scene and the index; frames are read as they are asked for.
 pub struct RecordingReader<R: Read + Seek> {
@@ -222,7 +225,8 @@ fn read_scene(reader: &mut (impl Read + Seek), length: u64) -> Result<(Scene, u6
 
 /// The files that the scene names, from byte `offset` on; gives where they end.
 fn read_files(reader: &mut (impl Read + Seek), scene: &mut Scene, mut offset: u64, length: u64) -> Result<u64> {
-    for _ in 0..MAX_FILES {
+    let mut left = MAX_CARRIED_BYTES;
+    for _ in 0..=MAX_FILES {
         let block = Block::read(reader, offset, length)?;
         if block.kind != block::FILE {
             return Ok(offset);
@@ -230,8 +234,12 @@ fn read_files(reader: &mut (impl Read + Seek), scene: &mut Scene, mut offset: u6
         let mut cursor = Cursor::new(&block.payload, offset);
         let name_length = cursor.u16()?;
         let name = text_of(cursor.take(usize::from(name_length))?.to_vec(), offset)?;
-        let text = text_of(block::unpack(cursor.rest(), MAX_SHAPE_FILE_BYTES as usize, offset)?, offset)?;
-        scene.files.insert(name, text);
+        let most = left.min(MAX_SHAPE_FILE_BYTES) as usize;
+        let text = text_of(block::unpack(cursor.rest(), most, offset)?, offset)?;
+        left -= text.len() as u64;
+        if let Some(twice) = scene.files.insert(name.clone(), text).map(|_| name) {
+            return Err(RecordingError::damaged(offset, format!("the file {twice:?} is carried twice")));
+        }
         offset = block.end();
     }
     Err(RecordingError::damaged(offset, format!("more than {MAX_FILES} files are carried along")))

@@ -5,9 +5,11 @@ use std::io::Write;
 use super::block;
 use super::codec::{self, FULL_BYTES, Layout, MAX_FRAMES};
 use super::index::{Entry, Index};
+use super::reader::{MAX_CARRIED_BYTES, MAX_FILES};
 use super::{Frame, MAGIC, RECORDING_VERSION, RecordingError, Result};
 use crate::dimension::DIMENSIONS;
 use crate::model::Scene;
+use crate::read::MAX_FILE_BYTES;
 use crate::world::AnyWorld;
 
 /// A recording in the making. It holds one block of frames in memory and needs no seeking; without
@@ -20,6 +22,14 @@ pub struct RecordingWriter<W: Write> {
     /// Of the block that is being filled.
     frames: Vec<Frame>,
     index: Index,
+}
+
+/// Refuses to write what readers refuse to read.
+fn refuse_large(what: &str, count: u64, most: u64, unit: &str) -> Result<()> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(RecordingError::content(format!("{what} {count} {unit}; a recording holds at most {most}")))
 }
 
 impl<W: Write> RecordingWriter<W> {
@@ -35,10 +45,15 @@ impl<W: Write> RecordingWriter<W> {
         }
         let mut scene = scene.clone();
         scene.carry_files()?;
+        let text = scene.to_json();
+        refuse_large("the scene as text has", text.len() as u64, MAX_FILE_BYTES, "bytes")?;
+        refuse_large("the scene names", scene.files.len() as u64, MAX_FILES as u64, "files")?;
+        let carried = scene.files.values().map(|text| text.len() as u64).sum();
+        refuse_large("the files that the scene names have", carried, MAX_CARRIED_BYTES, "bytes")?;
         writer.write_all(&MAGIC)?;
         writer.write_all(&RECORDING_VERSION.to_le_bytes())?;
         let mut length = MAGIC.len() as u64 + 4;
-        length += block::write(&mut writer, block::SCENE, &block::pack(scene.to_json().as_bytes()))?;
+        length += block::write(&mut writer, block::SCENE, &block::pack(text.as_bytes()))?;
         for (name, text) in &scene.files {
             let name_length = u16::try_from(name.len())
                 .map_err(|_| RecordingError::content(format!("the file name {name} is longer than 65535 bytes")))?;

@@ -171,6 +171,13 @@ impl<const N: usize> Joints<N> {
             }
             joint.step_impulse = rows.step_impulse;
             joint.step_twist = rows.step_twist;
+            let sound = joint.impulses.iter().flatten().all(|impulse| impulse.is_finite());
+            if !(sound && rows.step_impulse.is_finite() && rows.step_twist.is_finite()) {
+                // When the body that is no number comes back, nothing of it may start the next step.
+                joint.impulses.iter_mut().for_each(|impulse| *impulse = [0.0; 2]);
+                joint.step_impulse = Vector::ZERO;
+                joint.step_twist = Bivector::ZERO;
+            }
         }
     }
 }

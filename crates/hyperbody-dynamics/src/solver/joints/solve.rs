@@ -1,5 +1,7 @@
 //! The passes over joints.
 
+use std::f64::consts::TAU;
+
 use hyperbody_math::Bivector;
 
 use super::geometry::response;
@@ -262,7 +264,7 @@ impl<const N: usize> Row<N> {
                     return;
                 }
                 let soft = Softness::new(spring.hz, spring.damping_ratio, h);
-                let error = rate + self.curve + soft.bias_rate * (self.value - spring.target);
+                let error = rate + self.curve + soft.bias_rate * self.off(spring.target);
                 let limit = spring.max_force * h;
                 (held - soft.mass_scale * self.mass * error - soft.impulse_scale * held).clamp(-limit, limit)
             }
@@ -274,6 +276,12 @@ impl<const N: usize> Row<N> {
             Pass::Settle => self.settle = held - self.impulse,
         }
         self.apply(a, b, moving, change);
+    }
+
+    /// How far the coordinate is from a target; angles the short way round.
+    fn off(&self, target: f64) -> f64 {
+        let off = self.value - target;
+        if matches!(self.spec.coordinate, Coordinate::Angle(..)) { off - TAU * (off / TAU).round() } else { off }
     }
 
     /// What a limit adds to its impulse, counted inwards: `room` is the distance to it, closing at −`rate`.
