@@ -24,6 +24,12 @@ pub(crate) enum Pass {
     Settle,
 }
 
+/// Gaps of a joint between which it stops being taken for solved, m.
+const FIRM: std::ops::Range<f64> = 0.001..0.003;
+
+/// Share of its impulses that a joint forgets a pass while it is not solved at all.
+const FORGOTTEN: f64 = 0.1;
+
 impl<const N: usize> Joints<N> {
     /// Makes all rows at the present place.
     pub(crate) fn refresh(&mut self, moving: &Moving<'_, N>, moment: &Moment) {
@@ -65,7 +71,11 @@ impl<const N: usize> Joints<N> {
     pub(crate) fn warm_start(&mut self, moving: &mut Moving<'_, N>, pass: Pass) {
         for joint in &self.joints {
             let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
-            for row in &mut self.rows[joint.first..joint.end] {
+            let rows = &mut self.rows[joint.first..joint.end];
+            let kept = 1.0 - FORGOTTEN * (1.0 - joint.firmness(rows));
+            for row in rows {
+                row.impulse *= kept;
+                row.settle *= kept;
                 let impulse = match pass {
                     Pass::Move => {
                         // Limits, motors and springs have one impulse, which both passes mend.
@@ -91,13 +101,14 @@ impl<const N: usize> Joints<N> {
             let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
             let rows = &mut self.rows[joint.first..joint.end];
             let ahead = joint.geometry(&a.next, &b.next, rows);
+            let firm = joint.firmness(rows);
             for row in rows {
                 let mut change = ahead.value(row.spec.coordinate) - row.value;
                 if matches!(row.spec.coordinate, Coordinate::Angle(..)) {
                     // The short way round where the angle jumps from π to −π.
                     change -= std::f64::consts::TAU * (change / std::f64::consts::TAU).round();
                 }
-                row.curve = change / moment.h - row.rate(a, b, moving);
+                row.curve = firm * (change / moment.h - row.rate(a, b, moving));
             }
         }
     }
@@ -143,6 +154,24 @@ impl<const N: usize> Joints<N> {
 }
 
 impl<const N: usize> JointRows<N> {
+    /// One where the held rows of a joint are nearly met, zero where they are far off. One sweep does not solve a large net; what its
+    /// joints would change beyond their tangents, and what they pressed before, then lead away from the solution instead of to it. Soft joints have
+    /// gaps by design.
+    fn firmness(&self, rows: &[Row<N>]) -> f64 {
+        if self.soft.is_some() {
+            return 1.0;
+        }
+        let mut gap: f64 = 0.0;
+        for row in rows {
+            if let (Role::Held(place), Coordinate::Point(_) | Coordinate::Slide(_) | Coordinate::Length) =
+                (row.spec.role, row.spec.coordinate)
+            {
+                gap = gap.max((row.value - place).abs());
+            }
+        }
+        ((FIRM.end - gap) / (FIRM.end - FIRM.start)).clamp(0.0, 1.0)
+    }
+
     /// Solves the held rows together.
     fn solve_held(
         &self,
