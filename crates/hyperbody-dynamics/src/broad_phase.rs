@@ -8,11 +8,10 @@ use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::Vector;
 
-use crate::body::Body;
+use crate::World;
 use crate::narrow_phase::moved;
-use crate::pairs::Pair;
+use crate::pairs::{Pair, PairRole};
 use crate::world::Collider;
-use crate::{BodyKind, World};
 
 impl<const N: usize> World<N> {
     /// Brings boxes, tree and pairs up to date with the bodies' poses.
@@ -38,8 +37,8 @@ impl<const N: usize> World<N> {
             if !(motion.awake || collider.moved) {
                 continue;
             }
+            let spin = if body.radius > 0.0 { body.angular_velocity.norm() * body.radius } else { 0.0 };
             if motion.awake {
-                let spin = if body.radius > 0.0 { body.angular_velocity.norm() * body.radius } else { 0.0 };
                 motion.speed = body.velocity.norm() + spin;
             }
             let pose = body.world_from_body() * collider.body_from_collider;
@@ -55,11 +54,10 @@ impl<const N: usize> World<N> {
             let (Piece::Convex(convex), Some(proxy)) = (&collider.piece, collider.proxy) else { continue };
             let tight = convex.aabb(&collider.world_from_collider);
             // All that the body can reach within the step; twice as far when the box is made anew.
-            let turning = body.angular_velocity.norm() * body.radius * self.dt;
-            let motion = body.velocity * self.dt;
-            let reach = self.tuning.speculative_distance + turning;
-            if !collider.fat_aabb.contains(&ahead(&tight, motion).grown(reach)) {
-                collider.fat_aabb = ahead(&tight, motion * 2.0).grown(self.tuning.tree_margin + reach);
+            let way = body.velocity * self.dt;
+            let reach = self.tuning.speculative_distance + spin * self.dt;
+            if !collider.fat_aabb.contains(&ahead(&tight, way).grown(reach)) {
+                collider.fat_aabb = ahead(&tight, way * 2.0).grown(self.tuning.tree_margin + reach);
                 collider.moved = true;
                 self.tree.update(proxy, collider.fat_aabb);
             }
@@ -129,32 +127,22 @@ impl<const N: usize> World<N> {
         self.new_pairs = found;
     }
 
-    /// A pair of two colliders that may touch, or `None` if they never do: of one body, neither dynamic, or jointed.
+    /// A pair of two colliders that may touch, or `None` if they never do: of one body, or of two that leave each other alone.
     fn new_pair(&self, collider_a: u32, collider_b: u32) -> Option<Pair<N>> {
         let a = self.colliders[collider_a as usize].as_ref()?;
         let b = self.colliders[collider_b as usize].as_ref()?;
         let (body_a, body_b) = (self.bodies.at(a.body)?, self.bodies.at(b.body)?);
-        if a.body == b.body || !may_collide(body_a, body_b) || self.are_joined(body_a, b.body) {
+        if a.body == b.body || !self.may_pair(a.body, b.body) {
             return None;
         }
         let bounces = body_a.material.combined_restitution(&body_b.material) > 0.0;
-        Some(Pair::new((collider_a, a.body), (collider_b, b.body), bounces))
-    }
-
-    fn are_joined(&self, body: &Body<N>, other: u32) -> bool {
-        body.joints
-            .iter()
-            .filter_map(|&slot| self.joints.at(slot))
-            .any(|joint| (joint.body_a == other || joint.body_b == other) && !joint.def.collide)
+        let role = PairRole::of(body_a, body_b);
+        Some(Pair::new((collider_a, a.body), (collider_b, b.body), role, bounces))
     }
 }
 
 /// Longest way that is counted, m: beyond, a nanometre is lost in each step.
 const LONGEST_WAY: f64 = 1e6;
-
-fn may_collide<const N: usize>(a: &Body<N>, b: &Body<N>) -> bool {
-    a.kind == BodyKind::Dynamic || b.kind == BodyKind::Dynamic
-}
 
 fn query<const N: usize>(tree: &DynamicTree<N>, aabb: &Aabb<N>, stack: &mut Vec<u32>, mut found: impl FnMut(u32)) {
     tree.for_each_overlap(aabb, stack, |other| {

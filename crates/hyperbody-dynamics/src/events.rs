@@ -1,4 +1,4 @@
-//! What happened in the last step: touches, sleep, broken joints.
+//! What happened in the last step: touches, what sensors noticed, sleep, broken joints.
 //!
 //! Lists are made at the end of each step and stand until the next one; their order depends on bodies and joints alone:
 //! contacts by their two bodies' slots, the rest by when it happened. Bodies of several pieces touch once, however many of
@@ -36,6 +36,26 @@ pub struct ContactEvent<const N: usize> {
     pub normal: Vector<N>,
 }
 
+/// What a sensor noticed in the last step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SensorPhase {
+    /// The other body came to overlap it.
+    Enter,
+    /// It no longer does, or one of the two is gone: its handle may be stale.
+    Leave,
+}
+
+/// A body that came into a sensor or left it. Of two sensors, each notices the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SensorEvent {
+    /// The sensor.
+    pub sensor: BodyHandle,
+    /// What it noticed.
+    pub other: BodyHandle,
+    /// Which way.
+    pub phase: SensorPhase,
+}
+
 /// A joint that was loaded beyond its strength. It is gone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrokenJoint<const N: usize> {
@@ -53,6 +73,7 @@ pub struct BrokenJoint<const N: usize> {
 #[derive(Clone, Debug)]
 pub struct Events<const N: usize> {
     contacts: Vec<ContactEvent<N>>,
+    sensors: Vec<SensorEvent>,
     woken: Vec<BodyHandle>,
     slept: Vec<BodyHandle>,
     broken: Vec<BrokenJoint<N>>,
@@ -62,24 +83,32 @@ pub struct Events<const N: usize> {
     found: Vec<ContactEvent<N>>,
     /// The next `touching`: buffer.
     next: Vec<(BodyHandle, BodyHandle)>,
+    /// What is in which sensor, by sensor and body ascending.
+    inside: Vec<(BodyHandle, BodyHandle)>,
+    /// The next `inside`: buffer.
+    noticed: Vec<(BodyHandle, BodyHandle)>,
 }
 
 impl<const N: usize> Events<N> {
     pub(crate) const fn new() -> Self {
         Self {
             contacts: Vec::new(),
+            sensors: Vec::new(),
             woken: Vec::new(),
             slept: Vec::new(),
             broken: Vec::new(),
             touching: Vec::new(),
             found: Vec::new(),
             next: Vec::new(),
+            inside: Vec::new(),
+            noticed: Vec::new(),
         }
     }
 
     /// Nothing happened; touches go on in silence.
     pub(crate) fn forget_step(&mut self) {
         self.contacts.clear();
+        self.sensors.clear();
         self.woken.clear();
         self.slept.clear();
         self.broken.clear();
@@ -89,6 +118,13 @@ impl<const N: usize> Events<N> {
     #[must_use]
     pub fn contacts(&self) -> &[ContactEvent<N>] {
         &self.contacts
+    }
+
+    /// What came into sensors and what left them, by sensor and body in the order of their slots. It is noticed at the start
+    /// of a step, where bodies are then: what passes through a sensor within one step is not.
+    #[must_use]
+    pub fn sensors(&self) -> &[SensorEvent] {
+        &self.sensors
     }
 
     /// Bodies that woke, in the step or by a call before it.
@@ -117,11 +153,19 @@ impl<const N: usize> World<N> {
         &self.events
     }
 
+    /// The bodies that a sensor noticed in the last step, in the order of their slots.
+    pub fn inside(&self, sensor: BodyHandle) -> impl Iterator<Item = BodyHandle> + '_ {
+        let list = &self.events.inside;
+        let start = list.partition_point(|&(other, _)| other < sensor);
+        list[start..].iter().take_while(move |(other, _)| *other == sensor).map(|&(_, body)| body)
+    }
+
     /// Makes the lists of the step that just ended.
     pub(crate) fn collect_events(&mut self) {
         self.break_joints();
         self.find_touches();
         self.compare_touches();
+        self.compare_overlaps();
         let (bodies, events) = (&self.bodies, &mut self.events);
         events.woken.clear();
         events.slept.clear();
@@ -154,7 +198,12 @@ impl<const N: usize> World<N> {
     fn find_touches(&mut self) {
         let mut found = std::mem::take(&mut self.events.found);
         found.clear();
+        self.events.noticed.clear();
         for pair in self.pairs.iter() {
+            if pair.overlaps {
+                self.events.noticed.extend(self.noticed_by(pair.body_a, pair.body_b));
+                self.events.noticed.extend(self.noticed_by(pair.body_b, pair.body_a));
+            }
             let Some(contact) = pair.contact.as_deref().filter(|_| pair.points > 0) else { continue };
             let points = contact.manifold.points().iter().zip(&contact.step_impulses);
             let touches = points.clone().any(|(point, &impulse)| impulse > 0.0 || point.separation <= 0.0);
@@ -183,6 +232,32 @@ impl<const N: usize> World<N> {
         // Stable: pieces of the same two bodies keep the order of their pairs.
         found.sort_by_key(|touch| touch.bodies);
         self.events.found = found;
+    }
+
+    /// Sensor and body, if the first of two that overlap is a sensor.
+    fn noticed_by(&self, sensor: u32, other: u32) -> Option<(BodyHandle, BodyHandle)> {
+        self.bodies.at(sensor).filter(|body| body.sensor)?;
+        Some((self.bodies.handle_at(sensor)?, self.bodies.handle_at(other)?))
+    }
+
+    /// What sensors notice beside what they noticed in the last step.
+    fn compare_overlaps(&mut self) {
+        let Events { sensors, inside, noticed, .. } = &mut self.events;
+        sensors.clear();
+        noticed.sort_unstable();
+        noticed.dedup();
+        let mut before = inside.iter().copied().peekable();
+        let event = |(sensor, other), phase| SensorEvent { sensor, other, phase };
+        for &now in &*noticed {
+            while let Some(left) = before.next_if(|&other| other < now) {
+                sensors.push(event(left, SensorPhase::Leave));
+            }
+            if before.next_if_eq(&now).is_none() {
+                sensors.push(event(now, SensorPhase::Enter));
+            }
+        }
+        sensors.extend(before.map(|left| event(left, SensorPhase::Leave)));
+        std::mem::swap(inside, noticed);
     }
 
     /// Touches of this step beside those of the last one.

@@ -7,6 +7,8 @@
 //! | [`queries`] | what is where: rays, points, boxes |
 //! | [`joint`] | what ties bodies together |
 //! | [`events`] | touches, sleep and broken joints of the last step |
+//! | [`filter`] | who may touch whom: groups and masks, pairs switched off |
+//! | [`rules`] | sensors, one-way bodies, a say in contacts |
 //! | [`snapshot`] | the whole state, to go back to |
 //! | [`material`] | friction, restitution, density |
 //! | [`tuning`] | every tunable number, with its reason |
@@ -24,6 +26,7 @@ pub mod body;
 mod broad_phase;
 pub mod error;
 pub mod events;
+pub mod filter;
 pub mod free_top;
 mod handle;
 mod hash;
@@ -35,6 +38,7 @@ mod measure;
 mod narrow_phase;
 mod pairs;
 pub mod queries;
+pub mod rules;
 pub mod snapshot;
 mod solver;
 mod steering;
@@ -47,13 +51,15 @@ pub mod world;
 
 pub use body::{BodyDef, BodyKind, BodyMut, BodyRef};
 pub use error::{WorldError, WorldErrorKind};
-pub use events::{BrokenJoint, ContactEvent, ContactPhase, Events};
+pub use events::{BrokenJoint, ContactEvent, ContactPhase, Events, SensorEvent, SensorPhase};
+pub use filter::Groups;
 pub use handle::{BodyHandle, JointHandle};
 pub use joint::{Freedom, JointDef, JointRef, Motor, Spring};
 pub use material::Material;
 pub use measure::Energy;
 pub use narrow_phase::ContactRef;
 pub use queries::{BodyHit, Queries, QueryScratch};
+pub use rules::{ContactHook, HookedContact};
 pub use snapshot::Snapshot;
 pub use timings::StageTimings;
 pub use tuning::Tuning;

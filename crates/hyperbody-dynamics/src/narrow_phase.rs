@@ -8,7 +8,8 @@ use rayon::prelude::*;
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::{Carried, Contact, Pair};
+use crate::pairs::{Carried, Contact, Pair, PairRole};
+use crate::rules::Hook;
 use crate::world::{Collider, Motion};
 use crate::{BodyHandle, World};
 
@@ -51,6 +52,7 @@ impl<const N: usize> World<N> {
             margin: self.tuning.speculative_distance,
             recycle_distance: self.tuning.recycle_distance,
             dt: self.dt,
+            hook: self.hook.as_ref(),
         };
         let slots = self.pairs.slots_mut();
         match &self.pool {
@@ -60,7 +62,7 @@ impl<const N: usize> World<N> {
                 }
             }
             Some(pool) => {
-                // A few chunks a thread even out dense and empty stretches of slots.
+                // One stretch of slots and one scratch a thread.
                 let chunk = slots.len().div_ceil(self.scratch.len()).max(1);
                 pool.install(|| {
                     slots.par_chunks_mut(chunk).zip(self.scratch.par_iter_mut()).for_each(|(chunk, scratch)| {
@@ -117,17 +119,18 @@ impl<const N: usize> World<N> {
 
 /// What updating a pair reads.
 #[derive(Clone, Copy)]
-struct Update<'a, const N: usize> {
-    colliders: &'a [Option<Collider<N>>],
-    bodies: &'a Arena<Body<N>, BodyHandle>,
+pub(crate) struct Update<'a, const N: usize> {
+    pub(crate) colliders: &'a [Option<Collider<N>>],
+    pub(crate) bodies: &'a Arena<Body<N>, BodyHandle>,
     /// By slot of the collider.
     motions: &'a [Motion],
     /// m.
-    margin: f64,
+    pub(crate) margin: f64,
     /// m.
     recycle_distance: f64,
     /// s.
     dt: f64,
+    pub(crate) hook: Option<&'a Hook<N>>,
 }
 
 impl<const N: usize> Update<'_, N> {
@@ -135,7 +138,12 @@ impl<const N: usize> Update<'_, N> {
     fn pair(&self, pair: &mut Pair<N>, scratch: &mut Scratch<N>) {
         let (a, b) = (&self.motions[pair.collider_a as usize], &self.motions[pair.collider_b as usize]);
         // Between sleepers and the immovable nothing changed; what is in quarantine is to be forgotten.
-        if !(a.awake || b.awake || a.speed.is_infinite() || b.speed.is_infinite()) {
+        let idle = !(a.awake || b.awake || a.speed.is_infinite() || b.speed.is_infinite());
+        if pair.role == PairRole::Sensor {
+            // Sensors notice sleepers too, and wake nobody.
+            return self.sense(pair, a.way + b.way, scratch);
+        }
+        if idle {
             return;
         }
         // What was left out of the kept manifold was farther apart than the margin, and stays out of reach.
@@ -184,6 +192,12 @@ impl<const N: usize> Update<'_, N> {
             &mut manifold,
         );
         self.drop_unreached(&mut manifold, (a, body_a), (b, body_b), scratch);
+        if pair.role == PairRole::Ruled {
+            if !manifold.is_empty() {
+                pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b))));
+            }
+            self.judge(pair, &mut manifold, (a, body_a), (b, body_b));
+        }
         let empty = manifold.points().is_empty();
         if !(empty && pair.contact.is_none()) {
             let contact = pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b))));
@@ -192,7 +206,7 @@ impl<const N: usize> Update<'_, N> {
             record(contact, &a.world_from_collider, &b.world_from_collider);
         }
         pair.summarize();
-        let keep = empty || (flat_faced(&a.piece) && flat_faced(&b.piece));
+        let keep = pair.role == PairRole::Solid && (empty || (flat_faced(&a.piece) && flat_faced(&b.piece)));
         pair.search.a_from_b = keep.then_some(a_from_b);
         pair.holds_until = if keep { way + self.recycle_distance } else { f64::NEG_INFINITY };
     }
@@ -337,6 +351,7 @@ fn meet_first<const N: usize>(
         radii: (a.rounding(), b.rounding()),
         friction: body_a.material.combined_friction(&body_b.material),
         restitution: body_a.material.combined_restitution(&body_b.material),
+        surface: Vector::ZERO,
         manifold: Manifold::default(),
         normal_impulses: [0.0; MAX_POINTS],
         step_impulses: [0.0; MAX_POINTS],

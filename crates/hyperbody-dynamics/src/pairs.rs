@@ -8,6 +8,43 @@ use std::collections::BTreeMap;
 use hyperbody_collision::{MAX_POINTS, Manifold, PairCache};
 use hyperbody_math::{Bivector, Pose, Vector};
 
+use crate::body::Body;
+
+/// What comes of a pair that meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PairRole {
+    /// The two push each other.
+    Solid,
+    /// So they do, but one-way bodies or the contact hook have a say in it at every step.
+    Ruled,
+    /// One is a sensor: overlap is noted, and that is all.
+    Sensor,
+}
+
+impl PairRole {
+    pub(crate) fn of<const N: usize>(a: &Body<N>, b: &Body<N>) -> Self {
+        let ruled = |body: &Body<N>| body.one_way.is_some() || body.contact_hook;
+        if a.sensor || b.sensor {
+            Self::Sensor
+        } else if ruled(a) || ruled(b) {
+            Self::Ruled
+        } else {
+            Self::Solid
+        }
+    }
+}
+
+/// How a pair with a one-way body stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Passage {
+    /// The two are apart.
+    Apart,
+    /// Met on the side that holds.
+    Held,
+    /// Met on another side: no contact until they have come apart.
+    Passing,
+}
+
 /// Two colliders that may touch: what every step looks at. Of the many pairs that are near each other few touch, and of
 /// those that touch few have moved; what the others need stands apart, so that passing by costs one line of cache.
 #[derive(Clone, Debug)]
@@ -27,6 +64,11 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) touching: u8,
     /// max(e_a, e_b) > 0.
     pub(crate) bounces: bool,
+    pub(crate) role: PairRole,
+    /// Of sensors: whether the two overlap.
+    pub(crate) overlaps: bool,
+    /// Of one-way bodies.
+    pub(crate) passage: Passage,
     pub(crate) search: Box<Search<N>>,
     /// Made when the two touch for the first time.
     pub(crate) contact: Option<Box<Contact<N>>>,
@@ -50,6 +92,8 @@ pub(crate) struct Contact<const N: usize> {
     pub(crate) friction: f64,
     /// max(e_a, e_b).
     pub(crate) restitution: f64,
+    /// How b's surface runs against a's, beside what the bodies say, world axes, m/s: asked for by the contact hook.
+    pub(crate) surface: Vector<N>,
     /// The touching points of the last narrow phase.
     pub(crate) manifold: Manifold<N>,
     /// Warm start: normal impulse of each point over one substep, N·s.
@@ -66,7 +110,12 @@ pub(crate) struct Contact<const N: usize> {
 
 impl<const N: usize> Pair<N> {
     /// A pair of which nothing is known yet.
-    pub(crate) fn new((collider_a, body_a): (u32, u32), (collider_b, body_b): (u32, u32), bounces: bool) -> Self {
+    pub(crate) fn new(
+        (collider_a, body_a): (u32, u32),
+        (collider_b, body_b): (u32, u32),
+        role: PairRole,
+        bounces: bool,
+    ) -> Self {
         Self {
             collider_a,
             collider_b,
@@ -77,6 +126,9 @@ impl<const N: usize> Pair<N> {
             points: 0,
             touching: 0,
             bounces,
+            role,
+            overlaps: false,
+            passage: Passage::Apart,
             search: Box::new(Search { a_from_b: None, cache: PairCache::default() }),
             contact: None,
         }
@@ -84,7 +136,7 @@ impl<const N: usize> Pair<N> {
 
     /// Forgets contact and impulses, as if the two had never met.
     pub(crate) fn forget(&mut self) {
-        *self = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.bounces);
+        *self = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.role, self.bounces);
     }
 
     /// The touching points, with their normal; empty where the two have not met.

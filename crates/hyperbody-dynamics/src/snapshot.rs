@@ -10,6 +10,7 @@ use hyperbody_math::Vector;
 
 use crate::body::Body;
 use crate::events::Events;
+use crate::filter::IgnoredPairs;
 use crate::handle::Arena;
 use crate::islands::Islands;
 use crate::joint::Joint;
@@ -35,6 +36,7 @@ pub struct Snapshot<const N: usize> {
     half_spaces: Vec<u32>,
     tree: DynamicTree<N>,
     pairs: Pairs<N>,
+    ignored: IgnoredPairs,
     islands: Islands,
     events: Events<N>,
     step_count: u64,
@@ -76,6 +78,7 @@ impl<const N: usize> World<N> {
             half_spaces: self.half_spaces.clone(),
             tree: self.tree.clone(),
             pairs: self.pairs.clone(),
+            ignored: self.ignored.clone(),
             islands: self.islands.clone(),
             events: self.events.clone(),
             step_count: self.step_count,
@@ -102,6 +105,7 @@ impl<const N: usize> World<N> {
         self.half_spaces.clone_from(&snapshot.half_spaces);
         self.tree.clone_from(&snapshot.tree);
         self.pairs.clone_from(&snapshot.pairs);
+        self.ignored.clone_from(&snapshot.ignored);
         self.islands.clone_from(&snapshot.islands);
         self.events.clone_from(&snapshot.events);
         self.step_count = snapshot.step_count;

@@ -5,7 +5,7 @@
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::narrow_phase::velocity_near;
-use crate::pairs::Pair;
+use crate::pairs::{Pair, PairRole, Pairs};
 use crate::{BodyHandle, BodyKind, World};
 
 impl<const N: usize> World<N> {
@@ -18,8 +18,12 @@ impl<const N: usize> World<N> {
             self.islands.wake_body(slot, &mut self.bodies);
             let Some(body) = self.bodies.at_mut(slot) else { continue };
             body.slow_time = 0.0;
-            if body.kind != BodyKind::Dynamic || body.quarantined {
+            let refilter = std::mem::take(&mut body.refilter);
+            if body.kind != BodyKind::Dynamic || body.quarantined || refilter {
                 self.wake_neighbours(slot);
+            }
+            if refilter {
+                self.drop_forbidden_pairs(slot);
             }
             let Some(body) = self.bodies.at(slot) else { continue };
             for &collider in &body.colliders {
@@ -35,9 +39,22 @@ impl<const N: usize> World<N> {
         self.quarantined.retain(|&handle| bodies.get(handle).is_some_and(|body| body.quarantined));
     }
 
+    /// Drops the pairs of a body that are no longer allowed or have become of another kind; the broad phase finds anew what
+    /// is to stay.
+    fn drop_forbidden_pairs(&mut self, slot: u32) {
+        let mut pairs = std::mem::replace(&mut self.pairs, Pairs::new());
+        pairs.retain(|pair| {
+            let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return false };
+            let asked = pair.body_a == slot || pair.body_b == slot;
+            !asked || (self.may_pair(pair.body_a, pair.body_b) && pair.role == PairRole::of(a, b))
+        });
+        self.pairs = pairs;
+    }
+
     /// Wakes what lies beside a body that was moved by hand: it may have been its support.
     fn wake_neighbours(&mut self, slot: u32) {
-        for pair in self.pairs.iter().filter(|pair| pair.body_a == slot || pair.body_b == slot) {
+        let own = |pair: &&Pair<N>| pair.role != PairRole::Sensor && (pair.body_a == slot || pair.body_b == slot);
+        for pair in self.pairs.iter().filter(own) {
             let other = if pair.body_a == slot { pair.body_b } else { pair.body_a };
             self.islands.wake_body(other, &mut self.bodies);
         }
@@ -51,6 +68,9 @@ impl<const N: usize> World<N> {
 
     /// A sleeper that finds something at rest beside it, put there since it fell asleep, wakes to feel it.
     pub(crate) fn wake_beside_newcomer(&mut self, pair: &Pair<N>) {
+        if pair.role == PairRole::Sensor {
+            return;
+        }
         for (slot, other) in [(pair.body_a, pair.body_b), (pair.body_b, pair.body_a)] {
             if self.bodies.at(other).is_some_and(|body| body.kind != BodyKind::Dynamic && !body.drifts()) {
                 self.islands.wake_body(slot, &mut self.bodies);

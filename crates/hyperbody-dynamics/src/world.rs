@@ -7,10 +7,12 @@ use hyperbody_math::{Pose, Vector};
 
 use crate::body::Body;
 use crate::events::Events;
+use crate::filter::IgnoredPairs;
 use crate::handle::Arena;
 use crate::islands::Islands;
 use crate::joint::Joint;
 use crate::pairs::Pairs;
+use crate::rules::Hook;
 use crate::solver::Solver;
 use crate::vetting::{POSITION_LIMIT, in_bounds};
 use crate::{
@@ -108,6 +110,8 @@ pub struct World<const N: usize> {
     pub(crate) half_spaces: Vec<u32>,
     pub(crate) tree: DynamicTree<N>,
     pub(crate) pairs: Pairs<N>,
+    /// Pairs of bodies that were switched off.
+    pub(crate) ignored: IgnoredPairs,
     pub(crate) islands: Islands,
     pub(crate) events: Events<N>,
 
@@ -119,6 +123,7 @@ pub struct World<const N: usize> {
     pub(crate) wake_requests: Vec<u32>,
     pub(crate) timings: StageTimings,
     pub(crate) clock: Option<fn() -> f64>,
+    pub(crate) hook: Option<Hook<N>>,
 
     pub(crate) pool: Option<rayon::ThreadPool>,
     pub(crate) solver: Solver<N>,
@@ -178,6 +183,7 @@ impl<const N: usize> World<N> {
             half_spaces: Vec::new(),
             tree: DynamicTree::new(),
             pairs: Pairs::new(),
+            ignored: IgnoredPairs::new(),
             islands: Islands::new(),
             events: Events::new(),
             step_count: 0,
@@ -187,6 +193,7 @@ impl<const N: usize> World<N> {
             wake_requests: Vec::new(),
             timings: StageTimings::default(),
             clock: None,
+            hook: None,
             pool,
             solver: Solver::new(),
             scratch: (0..def.threads).map(|_| Scratch::default()).collect(),
@@ -280,6 +287,7 @@ impl<const N: usize> World<N> {
             }
             self.free_colliders.push(slot);
         }
+        self.ignored.forget_body(handle.index);
         self.quarantined.retain(|&other| other != handle);
         Ok(())
     }

@@ -45,8 +45,9 @@ pub use hyperbody_math as math;
 /// What most programs need.
 pub mod prelude {
     pub use hyperbody_dynamics::{
-        BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, ContactEvent, ContactPhase, Energy, Events, Freedom, JointDef,
-        JointHandle, JointRef, Material, Motor, Snapshot, Spring, StageTimings, Tuning, World, WorldDef, WorldError,
+        BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, ContactEvent, ContactHook, ContactPhase, Energy, Events,
+        Freedom, Groups, HookedContact, JointDef, JointHandle, JointRef, Material, Motor, SensorEvent, SensorPhase,
+        Snapshot, Spring, StageTimings, Tuning, World, WorldDef, WorldError,
     };
     pub use hyperbody_geometry::{GeometryError, Polytope, Shape};
     pub use hyperbody_math::{Bivector, Matrix, Pose, Rotation, Rotor, Vector};

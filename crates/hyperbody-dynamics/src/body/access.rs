@@ -3,10 +3,10 @@
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
-use super::{Body, BodyKind};
+use super::{Body, BodyKind, def::check_side};
 use crate::vetting::in_bounds;
 use crate::world::out_of_bounds;
-use crate::{Material, WorldError, error::WorldErrorKind};
+use crate::{Groups, Material, WorldError, error::WorldErrorKind};
 
 /// A body as it is between two steps.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +104,24 @@ impl<'a, const N: usize> BodyRef<'a, N> {
     #[must_use]
     pub fn steady_force(&self) -> (Vector<N>, Bivector<N>) {
         (self.body.steady_force, self.body.steady_torque)
+    }
+
+    /// Which groups it is in and which it meets.
+    #[must_use]
+    pub fn groups(&self) -> Groups {
+        self.body.groups
+    }
+
+    /// Whether it only notices what overlaps it.
+    #[must_use]
+    pub fn is_sensor(&self) -> bool {
+        self.body.sensor
+    }
+
+    /// Unit, body frame: the side that holds, of one-way bodies.
+    #[must_use]
+    pub fn one_way(&self) -> Option<Vector<N>> {
+        self.body.one_way
     }
 
     /// J. Zero unless dynamic.
@@ -341,6 +359,35 @@ impl<const N: usize> BodyMut<'_, N> {
         self.body.steady_torque = torque;
         self.wake();
         Ok(())
+    }
+
+    /// Sets which groups it is in and which it meets. It wakes with what it touched.
+    pub fn set_groups(&mut self, groups: Groups) {
+        self.body.groups = groups;
+        self.refilter();
+    }
+
+    /// Makes it a sensor, or solid again. It wakes with what it touched.
+    pub fn set_sensor(&mut self, sensor: bool) {
+        self.body.sensor = sensor;
+        self.refilter();
+    }
+
+    /// Sets the side, body frame, on which it holds what comes from there, or `None` for all sides. It wakes with what it
+    /// touched.
+    ///
+    /// # Errors
+    /// If the side is zero or not finite.
+    pub fn set_one_way(&mut self, side: Option<Vector<N>>) -> Result<(), WorldError> {
+        side.map_or(Ok(()), check_side)?;
+        self.body.one_way = side.and_then(Vector::try_normalize);
+        self.refilter();
+        Ok(())
+    }
+
+    fn refilter(&mut self) {
+        self.body.refilter = true;
+        self.request();
     }
 
     fn store_angular_velocity(&mut self, angular_velocity: Bivector<N>) {

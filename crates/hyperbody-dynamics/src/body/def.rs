@@ -3,7 +3,7 @@
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Rotation, Vector};
 
-use crate::{Material, WorldError};
+use crate::{Groups, Material, WorldError};
 
 /// How a body takes part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -48,6 +48,16 @@ pub struct BodyDef<const N: usize> {
     /// How its surface runs along it, in its own frame, m/s: what rests on it is carried along, as on a conveyor. Default:
     /// zero.
     pub surface_velocity: Vector<N>,
+    /// Which groups it is in and which it meets. Default: all.
+    pub groups: Groups,
+    /// Whether it only notices what overlaps it ([`Events::sensors`](crate::Events::sensors)), and neither pushes nor is
+    /// pushed. Two sensors notice each other. Default false.
+    pub sensor: bool,
+    /// The side, in its own frame, on which it holds what comes from there; the rest passes through, as through a platform
+    /// that one jumps onto from below. Any length but zero. Default: none, it holds on all sides.
+    pub one_way: Option<Vector<N>>,
+    /// Whether the world's [contact hook](crate::ContactHook) is asked about its contacts. Default false.
+    pub contact_hook: bool,
 }
 
 impl<const N: usize> BodyDef<N> {
@@ -68,6 +78,10 @@ impl<const N: usize> BodyDef<N> {
             angular_damping: 0.0,
             can_sleep: true,
             surface_velocity: Vector::ZERO,
+            groups: Groups::ALL,
+            sensor: false,
+            one_way: None,
+            contact_hook: false,
         }
     }
 
@@ -161,6 +175,34 @@ impl<const N: usize> BodyDef<N> {
         self
     }
 
+    /// Sets [`BodyDef::groups`].
+    #[must_use]
+    pub fn groups(mut self, groups: Groups) -> Self {
+        self.groups = groups;
+        self
+    }
+
+    /// Sets [`BodyDef::sensor`].
+    #[must_use]
+    pub fn sensor(mut self, sensor: bool) -> Self {
+        self.sensor = sensor;
+        self
+    }
+
+    /// Sets [`BodyDef::one_way`].
+    #[must_use]
+    pub fn one_way(mut self, side: impl Into<Vector<N>>) -> Self {
+        self.one_way = Some(side.into());
+        self
+    }
+
+    /// Sets [`BodyDef::contact_hook`].
+    #[must_use]
+    pub fn contact_hook(mut self, contact_hook: bool) -> Self {
+        self.contact_hook = contact_hook;
+        self
+    }
+
     pub(crate) fn validate(&self) -> Result<(), WorldError> {
         self.material.validate()?;
         let vectors =
@@ -172,6 +214,9 @@ impl<const N: usize> BodyDef<N> {
                     vector.0
                 )));
             }
+        }
+        if let Some(side) = self.one_way {
+            check_side(side)?;
         }
         if !self.angular_velocity.is_finite() {
             return Err(WorldError::bad_number("angular_velocity is not finite; every plane must be"));
@@ -193,4 +238,13 @@ impl<const N: usize> BodyDef<N> {
         }
         Ok(())
     }
+}
+
+/// Whether a vector names a side of a one-way body.
+pub(crate) fn check_side<const N: usize>(side: Vector<N>) -> Result<(), WorldError> {
+    if side.is_finite() && side.try_normalize().is_some() {
+        return Ok(());
+    }
+    let message = format!("one_way is {:?}; it must be finite and not zero, and point to the side that holds", side.0);
+    Err(WorldError::bad_number(message))
 }

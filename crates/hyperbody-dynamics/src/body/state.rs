@@ -7,7 +7,7 @@ use hyperbody_geometry::{MassProperties, Shape};
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
 use crate::vetting::in_bounds;
-use crate::{BodyDef, BodyKind, Material, WorldError, error::WorldErrorKind};
+use crate::{BodyDef, BodyKind, Groups, Material, WorldError, error::WorldErrorKind};
 
 /// Second moments of a body in its principal frame.
 #[derive(Clone, Copy, Debug)]
@@ -116,6 +116,14 @@ pub(crate) struct Body<const N: usize> {
     pub(crate) linear_damping: f64,
     pub(crate) angular_damping: f64,
 
+    pub(crate) groups: Groups,
+    pub(crate) sensor: bool,
+    /// Unit, body frame: the side that holds, if it is one-way.
+    pub(crate) one_way: Option<Vector<N>>,
+    pub(crate) contact_hook: bool,
+    /// Whom it meets, or how, was changed since the last step.
+    pub(crate) refilter: bool,
+
     pub(crate) can_sleep: bool,
     /// How long it has been slow, s.
     pub(crate) slow_time: f64,
@@ -186,6 +194,11 @@ impl<const N: usize> Body<N> {
             gravity_scale: def.gravity_scale,
             linear_damping: def.linear_damping,
             angular_damping: def.angular_damping,
+            groups: def.groups,
+            sensor: def.sensor,
+            one_way: def.one_way.and_then(Vector::try_normalize),
+            contact_hook: def.contact_hook,
+            refilter: false,
             can_sleep: def.can_sleep,
             slow_time: 0.0,
             asleep_in: None,

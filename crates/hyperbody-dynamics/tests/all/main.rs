@@ -3,6 +3,7 @@
 mod common;
 mod contact_table;
 mod events;
+mod filters;
 mod free_top_common;
 mod free_top_elliptic;
 mod free_top_equations;

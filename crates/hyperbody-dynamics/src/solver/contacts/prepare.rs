@@ -62,7 +62,7 @@ impl Prepare {
         if block.twists > 0 {
             lane.twisting(contact, &tangents);
         }
-        lane.field(contact.manifold.normal, centre, &tangents, block);
+        lane.field(contact, centre, &tangents, block);
         lane.points(contact, centre, &tangents, block);
     }
 }
@@ -123,7 +123,7 @@ impl<const N: usize> Lane<'_, N> {
     fn sliding(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N]) {
         let r = self.offsets(centre);
         let (velocity, acceleration) = self.base_motion(r);
-        let velocity = velocity + self.b.surface - self.a.surface;
+        let velocity = velocity + self.b.surface - self.a.surface + contact.surface;
         let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); N];
         for t in 0..Layout::<N>::SLIDES {
             let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
@@ -200,9 +200,13 @@ impl<const N: usize> Lane<'_, N> {
     }
 
     /// The field of the normal rows: at the centre, and along the tangents.
-    fn field(&mut self, normal: Vector<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
+    fn field(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
+        let normal = contact.manifold.normal;
         let r = self.offsets(centre);
-        let (velocity, acceleration) = self.base_motion(r);
+        let (mut velocity, acceleration) = self.base_motion(r);
+        if contact.surface != Vector::ZERO {
+            velocity += contact.surface;
+        }
         let start = Layout::<N>::field_start(block);
         self.set_arms(start, &self.a.arm(r.a, normal), &self.b.arm(r.b, normal));
         self.set(start + Layout::<N>::FIELD_VELOCITY, velocity.dot(normal));
