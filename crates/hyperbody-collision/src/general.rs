@@ -191,7 +191,7 @@ fn penetrate<const N: usize>(
 
 /// Where the cores are deepest along a way out: the foot of the origin on the facet of D, or else the middle between
 /// the farthest vertices.
-fn deepest<const N: usize>(difference: &Difference<'_, N>, way: &Penetration<N>) -> Witness<N> {
+pub(crate) fn deepest<const N: usize>(difference: &Difference<'_, N>, way: &Penetration<N>) -> Witness<N> {
     let foot = way.facet.and_then(|vertices| Simplex::foot_on(&vertices));
     let [on_a, on_b] = match foot {
         Some(foot) => foot.clamped().witnesses(difference),

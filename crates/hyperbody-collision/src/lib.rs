@@ -8,6 +8,7 @@
 //! | [`box_sat`] | separating axes of two boxes, all C(2N, N−1) of them |
 //! | [`ray`] | [`cast`](ray::cast): where a ray first meets a shape |
 //! | [`point`] | whether a point, or an axis-aligned box, is in a shape |
+//! | [`query`] | distance, depth, overlap, nearest point, and casts of shapes that move and turn |
 //! | [`limits`] | every tolerance and every bound on a loop, each with its reason |
 //!
 //! Every shape is a polyhedral core rounded by a radius ([`hyperbody_geometry::Convex`]), or a half-space. Touching,
@@ -15,6 +16,7 @@
 
 pub mod box_sat;
 mod clip;
+mod descent;
 mod difference;
 mod epa;
 mod faces;
@@ -29,6 +31,7 @@ mod overlap;
 mod pair;
 mod patch;
 pub mod point;
+pub mod query;
 pub mod ray;
 mod reduce;
 mod round;

@@ -79,6 +79,9 @@ pub const MAX_EPA_VERTICES: usize = 512;
 /// Bound on the facets that the penetration search makes: about a megabyte of them.
 pub const MAX_EPA_FACETS: usize = 16_384;
 
+/// Bound on the turns of the descent that takes over where the penetration search ends at its bounds.
+pub const MAX_DESCENT_TURNS: u32 = 32;
+
 /// How often in a row a normal that won before, and is still the best in its neighbourhood, may win again without a
 /// full search: because no way out can be shorter than [`RECHECK_FRACTION`] of its depth, or because the overlap is
 /// [`SHALLOW`], so that no way out can be shorter by more than that.
@@ -104,3 +107,11 @@ pub const MAX_RAY_TURNS: u32 = 64;
 /// Slack when a ray is clipped against the boxes of the tree, relative: three roundings each way (T. Ize, "Robust BVH
 /// ray traversal", 2013).
 pub const RAY_BOX_SLACK: f64 = 1e-15;
+
+/// Gap at which a moving shape has arrived, in parts of the size of both shapes: twice [`TOUCHING`], within which the
+/// distance search cannot tell touching from overlap.
+pub const CAST_GAP: f64 = 2e-9;
+
+/// Bound on the turns of a shape cast. Without turning it takes as many as a ray; each radian that a shape turns closely
+/// past another costs a few.
+pub const MAX_CAST_TURNS: u32 = 1024;

@@ -56,6 +56,8 @@ pub struct Effort {
     pub epa_facets: u32,
     /// Vertices of one patch before it was reduced.
     pub patch_vertices: u32,
+    /// Turns of one shape cast, at most [`crate::limits::MAX_CAST_TURNS`].
+    pub cast_turns: u32,
     /// Distance searches run.
     pub gjk_runs: u64,
     /// Penetration searches run.
@@ -109,7 +111,7 @@ pub fn collide<const N: usize>(
 
 /// Whether every number of the pose is finite: a sum of products with zero is zero only then.
 #[inline]
-fn is_finite<const N: usize>(pose: &Pose<N>) -> bool {
+pub(crate) fn is_finite<const N: usize>(pose: &Pose<N>) -> bool {
     let mut sum = 0.0;
     for i in 0..N {
         sum += pose.translation[i] * 0.0;
@@ -120,7 +122,11 @@ fn is_finite<const N: usize>(pose: &Pose<N>) -> bool {
     sum == 0.0
 }
 
-fn plane_in_world<const N: usize>(world_from_piece: &Pose<N>, normal: Vector<N>, offset: f64) -> (Vector<N>, f64) {
+pub(crate) fn plane_in_world<const N: usize>(
+    world_from_piece: &Pose<N>,
+    normal: Vector<N>,
+    offset: f64,
+) -> (Vector<N>, f64) {
     let normal = world_from_piece.rotation.rotate(normal);
     (normal, offset + normal.dot(world_from_piece.translation))
 }

@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use hyperbody_collision::ray::Ray;
-use hyperbody_dynamics::{BodyDef, QueryScratch, World, WorldDef, WorldError};
+use hyperbody_dynamics::{BodyDef, QueryFilter, QueryScratch, World, WorldDef, WorldError};
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Rotation, Vector};
 
@@ -72,7 +72,7 @@ fn time<const N: usize>() -> Result<(), WorldError> {
         })
         .collect();
     let mut scratch = QueryScratch::default();
-    let mut timed = |name: &str, cast: &mut dyn FnMut(&Ray<N>, &mut QueryScratch) -> bool| {
+    let mut timed = |name: &str, cast: &mut dyn FnMut(&Ray<N>, &mut QueryScratch<N>) -> bool| {
         let start = Instant::now();
         let hits = rays.iter().filter(|ray| cast(ray, &mut scratch)).count();
         let seconds = start.elapsed().as_secs_f64();
@@ -82,8 +82,8 @@ fn time<const N: usize>() -> Result<(), WorldError> {
             1e2 * hits as f64 / RAYS as f64
         );
     };
-    timed("first hit", &mut |ray, scratch| queries.ray_cast(ray, scratch, |_| true).is_some());
-    timed("any hit", &mut |ray, scratch| queries.ray_meets_any(ray, scratch, |_| true));
+    timed("first hit", &mut |ray, scratch| queries.ray_cast(ray, scratch, &QueryFilter::ALL).is_some());
+    timed("any hit", &mut |ray, scratch| queries.ray_meets_any(ray, scratch, &QueryFilter::ALL));
     Ok(())
 }
 

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`world`] | [`World`]: bodies and joints go in, `step` moves them, results are read |
 //! | [`body`] | what a body is, how it is defined, read and pushed |
-//! | [`queries`] | what is where: rays, points, boxes |
+//! | [`queries`] | what is where: rays, points, boxes, shapes at rest and in motion |
 //! | [`joint`] | what ties bodies together |
 //! | [`events`] | touches, sleep and broken joints of the last step |
 //! | [`filter`] | who may touch whom: groups and masks, pairs switched off |
@@ -58,7 +58,7 @@ pub use joint::{Freedom, JointDef, JointRef, Motor, Spring};
 pub use material::Material;
 pub use measure::Energy;
 pub use narrow_phase::ContactRef;
-pub use queries::{BodyHit, Queries, QueryScratch};
+pub use queries::{BodyHit, BodyProjection, BodySeparation, BodyShapeHit, Queries, QueryFilter, QueryScratch};
 pub use rules::{ContactHook, HookedContact};
 pub use snapshot::Snapshot;
 pub use timings::StageTimings;

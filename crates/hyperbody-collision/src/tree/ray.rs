@@ -1,4 +1,4 @@
-//! Rays through the tree, nearest boxes first.
+//! Rays and boxes through the tree, and what is near, nearest boxes first.
 
 use hyperbody_geometry::Aabb;
 use hyperbody_math::Vector;
@@ -7,7 +7,7 @@ use super::{DynamicTree, NONE, State};
 use crate::limits::RAY_BOX_SLACK;
 use crate::ray::Ray;
 
-/// Working memory of [`DynamicTree::cast_ray`], to be kept so that nothing is allocated once it has grown. Its contents
+/// Working memory of [`DynamicTree::cast_ray`] and its kin, to be kept so that nothing is allocated once it has grown. Its contents
 /// never influence a result.
 #[derive(Clone, Debug, Default)]
 pub struct RayStack {
@@ -23,6 +23,10 @@ struct Slabs<const N: usize> {
 }
 
 impl<const N: usize> Slabs<N> {
+    fn new(ray: &Ray<N>) -> Self {
+        Self { origin: ray.origin, inverse: Vector(ray.direction.0.map(|component| 1.0 / component)) }
+    }
+
     /// Where the ray enters a box, 0 from inside, ∞ if it misses it up to `max_fraction`. Where a ray runs in a face of
     /// the box, 0·∞ is NaN, which no comparison takes: the face does not exclude it.
     #[inline]
@@ -49,21 +53,71 @@ impl<const N: usize> DynamicTree<N> {
     /// not, so that ties can be decided by number.
     ///
     /// Rays that are not [valid](Ray::is_valid) meet nothing.
-    pub fn cast_ray(&self, ray: &Ray<N>, stack: &mut RayStack, mut visit: impl FnMut(u32, f64) -> Option<f64>) {
-        if self.root == NONE || !ray.is_valid() {
+    pub fn cast_ray(&self, ray: &Ray<N>, stack: &mut RayStack, visit: impl FnMut(u32, f64) -> Option<f64>) {
+        if ray.is_valid() {
+            let slabs = Slabs::new(ray);
+            self.near_first(ray.max_fraction, stack, |aabb, reach| slabs.entry(aabb, reach), visit);
+        }
+    }
+
+    /// The same for a box of the given half-extents whose centre goes along the ray.
+    pub fn cast_box(
+        &self,
+        ray: &Ray<N>,
+        half_extents: Vector<N>,
+        stack: &mut RayStack,
+        visit: impl FnMut(u32, f64) -> Option<f64>,
+    ) {
+        if ray.is_valid() {
+            let slabs = Slabs::new(ray);
+            let grown = |aabb: &Aabb<N>| Aabb { lower: aabb.lower - half_extents, upper: aabb.upper + half_extents };
+            self.near_first(ray.max_fraction, stack, |aabb, reach| slabs.entry(&grown(aabb), reach), visit);
+        }
+    }
+
+    /// Calls `visit` with the caller's number of every box that is at most `reach` away from `aabb`, roughly from near to
+    /// far, and with the largest distance that is still of interest, which its answer can reduce as with
+    /// [`DynamicTree::cast_ray`].
+    pub fn visit_near(
+        &self,
+        aabb: &Aabb<N>,
+        reach: f64,
+        stack: &mut RayStack,
+        visit: impl FnMut(u32, f64) -> Option<f64>,
+    ) {
+        let distance = |other: &Aabb<N>, reach: f64| {
+            let mut sum = 0.0;
+            for i in 0..N {
+                let apart = (aabb.lower.0[i] - other.upper.0[i]).max(other.lower.0[i] - aabb.upper.0[i]).max(0.0);
+                sum += apart * apart;
+            }
+            let distance = sum.sqrt();
+            if distance <= reach * (1.0 + RAY_BOX_SLACK) { distance } else { f64::INFINITY }
+        };
+        self.near_first(reach, stack, distance, visit);
+    }
+
+    /// Visits leaves roughly in the order of `entry`, which tells how far away a box begins, ∞ beyond the reach.
+    #[inline]
+    fn near_first(
+        &self,
+        mut reach: f64,
+        stack: &mut RayStack,
+        entry: impl Fn(&Aabb<N>, f64) -> f64,
+        mut visit: impl FnMut(u32, f64) -> Option<f64>,
+    ) {
+        if self.root == NONE {
             return;
         }
-        let slabs = Slabs { origin: ray.origin, inverse: Vector(ray.direction.0.map(|component| 1.0 / component)) };
-        let mut reach = ray.max_fraction;
         let entries = &mut stack.entries;
         entries.clear();
-        let entry = slabs.entry(&self.nodes[self.root as usize].aabb, reach);
-        if entry < f64::INFINITY {
-            entries.push((entry, self.root));
+        let first = entry(&self.nodes[self.root as usize].aabb, reach);
+        if first < f64::INFINITY {
+            entries.push((first, self.root));
         }
         // Every node is pushed at most once, by its only parent.
-        while let Some((entry, index)) = entries.pop() {
-            if entry > reach * (1.0 + RAY_BOX_SLACK) {
+        while let Some((begins, index)) = entries.pop() {
+            if begins > reach * (1.0 + RAY_BOX_SLACK) {
                 continue;
             }
             let node = &self.nodes[index as usize];
@@ -75,8 +129,7 @@ impl<const N: usize> DynamicTree<N> {
                 continue;
             }
             let [first, second] = node.children;
-            let [enter_first, enter_second] =
-                node.children.map(|child| slabs.entry(&self.nodes[child as usize].aabb, reach));
+            let [enter_first, enter_second] = node.children.map(|child| entry(&self.nodes[child as usize].aabb, reach));
             let (near, far) = if enter_second < enter_first {
                 ((enter_second, second), (enter_first, first))
             } else {

@@ -7,6 +7,8 @@ mod degenerate;
 mod fuzz;
 mod manifolds;
 mod persistence;
+mod queries;
 mod ray_shapes;
+mod shape_casts;
 mod tree;
 mod tree_rays;

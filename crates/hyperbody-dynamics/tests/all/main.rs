@@ -15,6 +15,7 @@ mod free_top_step;
 mod joint_hand;
 mod joint_kinds;
 mod queries;
+mod queries_shapes;
 mod random_operations;
 mod robustness;
 mod snapshot;

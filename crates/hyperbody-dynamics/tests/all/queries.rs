@@ -3,16 +3,16 @@
 use crate::common::{Random, material};
 use hyperbody_collision::point;
 use hyperbody_collision::ray::{Ray, cast};
-use hyperbody_dynamics::{BodyDef, BodyHandle, BodyHit, QueryScratch, World, WorldDef};
+use hyperbody_dynamics::{BodyDef, BodyHandle, BodyHit, QueryFilter, QueryScratch, World, WorldDef};
 use hyperbody_geometry::{Aabb, Shape};
 use hyperbody_math::{Pose, Vector};
 
-fn cube<const N: usize>(half_extent: f64) -> Shape<N> {
+pub(crate) fn cube<const N: usize>(half_extent: f64) -> Shape<N> {
     Shape::cuboid([half_extent; N]).unwrap()
 }
 
 /// Bodies of every kind in a heap, in motion, some of them just moved by hand or removed.
-fn world<const N: usize>(random: &mut Random, threads: usize) -> World<N> {
+pub(crate) fn world<const N: usize>(random: &mut Random, threads: usize) -> World<N> {
     let mut world = World::new(WorldDef { threads, ..WorldDef::default() }).unwrap();
     world.add_body(BodyDef::fixed(Shape::half_space(Vector::unit(1), 0.0).unwrap())).unwrap();
     let mut handles = Vec::new();
@@ -51,7 +51,7 @@ fn ray<const N: usize>(random: &mut Random, targets: &[Vector<N>]) -> Ray<N> {
     Ray::between(from, to).up_to(random.between(0.5, 3.0))
 }
 
-fn centres<const N: usize>(world: &World<N>) -> Vec<Vector<N>> {
+pub(crate) fn centres<const N: usize>(world: &World<N>) -> Vec<Vector<N>> {
     world.bodies().map(|(_, body)| body.centre_of_mass()).collect()
 }
 
@@ -72,11 +72,11 @@ fn rays_agree<const N: usize>() {
     let (mut scratch, mut found) = (QueryScratch::default(), Vec::new());
     let rays: Vec<Ray<N>> = (0..2000).map(|_| ray(&mut random, &centres(&world))).collect();
     let mut batch = Vec::new();
-    queries.ray_casts(&rays, |_| true, &mut batch);
+    queries.ray_casts(&rays, &QueryFilter::ALL, &mut batch);
     let mut several = 0;
     for (ray, in_batch) in rays.iter().zip(&batch) {
         let expected = all_hits(&world, ray);
-        let first = queries.ray_cast(ray, &mut scratch, |_| true);
+        let first = queries.ray_cast(ray, &mut scratch, &QueryFilter::ALL);
         assert_eq!(first, *in_batch, "a batch answers as single rays do");
         assert_eq!(
             first.map(|hit| (hit.body, hit.hit.fraction)),
@@ -89,9 +89,9 @@ fn rays_agree<const N: usize>() {
             );
             assert!(first.hit.point.distance(expected.hit.point) < 1e-12 && first.hit.normal == expected.hit.normal);
         }
-        assert_eq!(queries.ray_meets_any(ray, &mut scratch, |_| true), !expected.is_empty());
+        assert_eq!(queries.ray_meets_any(ray, &mut scratch, &QueryFilter::ALL), !expected.is_empty());
         // All hits list the parts of a compound one by one; each body's first one must be the same.
-        queries.ray_cast_all(ray, &mut scratch, |_| true, &mut found);
+        queries.ray_cast_all(ray, &mut scratch, &QueryFilter::ALL, &mut found);
         assert!(found.is_sorted_by(|a, b| a.hit.fraction <= b.hit.fraction));
         let mut bodies: Vec<(BodyHandle, f64)> = Vec::new();
         for hit in &found {
@@ -104,7 +104,7 @@ fn rays_agree<const N: usize>() {
         several += usize::from(expected.len() > 1);
         // What the filter keeps out does not stop the ray.
         if let Some(blocked) = first {
-            let beyond = queries.ray_cast(ray, &mut scratch, |body| body != blocked.body);
+            let beyond = queries.ray_cast(ray, &mut scratch, &QueryFilter::new().excluding(blocked.body));
             let next = expected.iter().find(|hit| hit.body != blocked.body);
             assert_eq!(beyond.map(|hit| hit.body), next.map(|hit| hit.body));
         }
@@ -134,7 +134,7 @@ fn points_and_boxes_agree<const N: usize>() {
     let (mut in_bodies, mut box_hits) = (0, 0);
     for round in 0..1000 {
         let target = centres[1 + round % (centres.len() - 1)] + random.vector(0.4);
-        queries.bodies_at(target, &mut scratch, |_| true, &mut found);
+        queries.bodies_at(target, &mut scratch, &QueryFilter::ALL, &mut found);
         let holds = |shape: &Shape<N>, pose: &Pose<N>| {
             shape
                 .pieces()
@@ -145,7 +145,7 @@ fn points_and_boxes_agree<const N: usize>() {
         in_bodies += found.len();
 
         let aabb = Aabb::from_centre(target, random.vector::<N>(0.8).abs());
-        queries.bodies_in(&aabb, &mut scratch, |_| true, &mut found);
+        queries.bodies_in(&aabb, &mut scratch, &QueryFilter::ALL, &mut found);
         let meets = |shape: &Shape<N>, pose: &Pose<N>| {
             shape.pieces().iter().any(|(inner, piece)| point::overlaps_aabb(piece, &(*pose * *inner), &aabb))
         };
@@ -153,11 +153,11 @@ fn points_and_boxes_agree<const N: usize>() {
         box_hits += found.len();
         // A ray from the point is inside of the same bodies that hold it.
         let mut hits = Vec::new();
-        queries.ray_cast_all(&Ray::new(target, Vector::unit(0)).up_to(0.0), &mut scratch, |_| true, &mut hits);
+        queries.ray_cast_all(&Ray::new(target, Vector::unit(0)).up_to(0.0), &mut scratch, &QueryFilter::ALL, &mut hits);
         let mut holding: Vec<BodyHandle> = hits.iter().filter(|hit| hit.hit.inside).map(|hit| hit.body).collect();
         holding.sort_unstable();
         holding.dedup();
-        queries.bodies_at(target, &mut scratch, |_| true, &mut found);
+        queries.bodies_at(target, &mut scratch, &QueryFilter::ALL, &mut found);
         assert_eq!(found, holding);
     }
     assert!(in_bodies > 300 && box_hits > 1000, "{in_bodies} points and {box_hits} boxes in {N}D");
@@ -180,10 +180,10 @@ fn boxes_meet_what_their_points_meet<const N: usize>() {
     let (mut scratch, mut found, mut holding) = (QueryScratch::default(), Vec::new(), Vec::new());
     for _ in 0..200 {
         let aabb = Aabb::from_centre(random.vector::<N>(2.0) + Vector::unit(1) * 2.0, random.vector::<N>(0.5).abs());
-        queries.bodies_in(&aabb, &mut scratch, |_| true, &mut found);
+        queries.bodies_in(&aabb, &mut scratch, &QueryFilter::ALL, &mut found);
         for _ in 0..50 {
             let point = Vector::from_fn(|i| random.between(aabb.lower[i], aabb.upper[i]));
-            queries.bodies_at(point, &mut scratch, |_| true, &mut holding);
+            queries.bodies_at(point, &mut scratch, &QueryFilter::ALL, &mut holding);
             assert!(
                 holding.iter().all(|body| found.contains(body)),
                 "{point:?} lies in {holding:?}, the box in {found:?}"

@@ -155,19 +155,39 @@ fn place<const N: usize>(random: &mut Random, a: &Piece<N>, b: &Piece<N>, small:
     (pose_a, pose_b)
 }
 
+/// A drawn pair.
+pub struct Pair<const N: usize> {
+    pub a: Piece<N>,
+    pub b: Piece<N>,
+    pub pose_a: Pose<N>,
+    pub pose_b: Pose<N>,
+    /// Says which draw it is and what was drawn.
+    pub name: String,
+    /// The lesser bounding radius.
+    pub small: f64,
+    /// For whatever else the draw decides.
+    pub random: Random,
+}
+
+/// The pair of the given number: the same for ever.
+pub fn draw<const N: usize>(seed: u64, index: u64, spread: f64) -> Pair<N> {
+    let mut random = Random(seed.wrapping_mul(0x9e37_79b9).wrapping_add(index));
+    let size_a = random_size(&mut random, spread);
+    let size_b = if random.below(2) == 0 { size_a } else { random_size(&mut random, spread) };
+    let a = random_piece::<N>(&mut random, size_a);
+    let b = if random.below(6) == 0 { a.clone() } else { random_piece::<N>(&mut random, size_b) };
+    let small = convex(&a).bounding_radius().min(convex(&b).bounding_radius());
+    let (pose_a, pose_b) = place(&mut random, &a, &b, small);
+    let name = format!("N = {N}, seed {seed}, pair {index}, {} and {}", kind(&a), kind(&b));
+    Pair { a, b, pose_a, pose_b, name, small, random }
+}
+
 /// Draws pairs and checks them; the panic names the draw.
 pub fn run<const N: usize>(plan: Plan) -> Report {
     let mut report = Report::default();
     let mut scratch = Scratch::default();
     for index in 0..plan.pairs {
-        let mut random = Random(plan.seed.wrapping_mul(0x9e37_79b9).wrapping_add(index));
-        let size_a = random_size(&mut random, plan.spread);
-        let size_b = if random.below(2) == 0 { size_a } else { random_size(&mut random, plan.spread) };
-        let a = random_piece::<N>(&mut random, size_a);
-        let b = if random.below(6) == 0 { a.clone() } else { random_piece::<N>(&mut random, size_b) };
-        let small = convex(&a).bounding_radius().min(convex(&b).bounding_radius());
-        let (pose_a, pose_b) = place(&mut random, &a, &b, small);
-        let name = format!("N = {N}, seed {}, pair {index}, {} and {}", plan.seed, kind(&a), kind(&b));
+        let Pair { a, b, pose_a, pose_b, name, small, mut random } = draw::<N>(plan.seed, index, plan.spread);
         let pair = Drawn { a: &a, b: &b, pose_a, pose_b, name, small, plan };
         report.merge(&pair.check(&mut random, &mut scratch));
     }

@@ -1,0 +1,29 @@
+//! What two shapes have to do with each other, and a shape with a point: questions that leave no trace.
+//!
+//! | question | function |
+//! |---|---|
+//! | do they have a point in common? | [`overlap`] |
+//! | how far apart are they, and where? | [`closest`] |
+//! | how far apart, or how deep in each other? | [`separation`] |
+//! | which point of a shape is nearest to a given one? | [`project`] |
+//! | when does a moving and turning shape meet another? | [`shape_cast`], [`time_of_impact`] |
+//! | where does a ray meet a shape? | [`crate::ray::cast`] |
+//! | does a shape hold a point, or meet an axis-aligned box? | [`crate::point`] |
+//!
+//! Each comes for whole shapes, compounds included, and most for pieces, for callers who walk the pieces themselves.
+//! All take world poses and answer in the world. Shapes are closed solids: touching is having a point in common, to the
+//! rounding of the search ([`crate::limits::TOUCHING`] of the size of both shapes).
+//!
+//! Inputs that are not finite have nothing in common with anything, and nothing panics.
+
+mod cast;
+mod motion;
+mod project;
+mod separation;
+
+pub use cast::{ShapeHit, shape_cast, shape_cast_on_piece, time_of_impact};
+pub use motion::Motion;
+pub use project::{Projection, project, project_on_piece};
+pub use separation::{
+    Closest, Separation, closest, closest_of_pieces, overlap, pieces_overlap, separation, separation_of_pieces,
+};
