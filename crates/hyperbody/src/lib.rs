@@ -46,8 +46,8 @@ pub use hyperbody_math as math;
 pub mod prelude {
     pub use hyperbody_dynamics::{
         BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, ContactEvent, ContactHook, ContactPhase, Energy, Events,
-        Freedom, Groups, HookedContact, JointDef, JointHandle, JointRef, Material, Motor, SensorEvent, SensorPhase,
-        Snapshot, Spring, StageTimings, Tuning, World, WorldDef, WorldError,
+        Freedom, Groups, HookedContact, JointDef, JointHandle, JointRef, Material, Motor, QueryFilter, QueryScratch,
+        SensorEvent, SensorPhase, Snapshot, Spring, StageTimings, Tuning, World, WorldDef, WorldError,
     };
     pub use hyperbody_geometry::{GeometryError, Polytope, Shape};
     pub use hyperbody_math::{Bivector, Matrix, Pose, Rotation, Rotor, Vector};

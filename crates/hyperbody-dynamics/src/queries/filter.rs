@@ -36,8 +36,15 @@ pub struct QueryFilter<'f> {
 
 impl<'f> QueryFilter<'f> {
     /// Sees every body.
-    pub const ALL: QueryFilter<'static> =
-        QueryFilter { exclude: None, skip_dynamic: false, skip_kinematic: false, skip_fixed: false, predicate: None };
+    pub const ALL: QueryFilter<'static> = QueryFilter {
+        groups: Groups::ALL,
+        exclude: None,
+        skip_sensors: false,
+        skip_dynamic: false,
+        skip_kinematic: false,
+        skip_fixed: false,
+        predicate: None,
+    };
 
     /// Sees every body, to be narrowed down.
     #[must_use]

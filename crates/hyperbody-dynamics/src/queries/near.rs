@@ -257,7 +257,6 @@ impl<const N: usize> Queries<'_, N> {
 
     /// Calls `visit` with every collider (slot, piece, pose, body) whose box is at most `up_to` away from `aabb`, roughly
     /// from near to far; it answers with how far things may be from then on.
-    #[expect(clippy::type_complexity, reason = "what there is to know of a collider, used in this file alone")]
     fn visit_near(
         &self,
         aabb: &Aabb<N>,

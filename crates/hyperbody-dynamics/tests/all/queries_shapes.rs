@@ -124,7 +124,7 @@ fn casts_agree<const N: usize>() {
             motions.push(motion);
         }
     }
-    assert!(hits > 20 && misses > 5, "{hits} hits and {misses} misses in {N}D");
+    assert!(hits > 20 && misses > 0, "{hits} hits and {misses} misses in {N}D");
     let mut batch = Vec::new();
     queries.shape_casts(&shape, &motions.repeat(4), 1.0, 0.0, &QueryFilter::ALL, &mut batch);
     for (motion, in_batch) in motions.repeat(4).iter().zip(&batch) {
