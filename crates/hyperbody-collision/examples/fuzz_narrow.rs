@@ -1,20 +1,50 @@
-//! The long run of the narrow phase's fuzzing, with the worst cases printed: `cargo run --release -p
-//! hyperbody-collision --example fuzz_narrow -- PAIRS [SEED]`.
+//! The long run of the narrow phase's fuzzing, with the worst cases and the iteration maxima printed:
+//! `cargo run --release -p hyperbody-collision --example fuzz_narrow -- PAIRS [SEED [DIMENSION]]`.
+//!
+//! Without a dimension it goes through all of them. A pair that breaks a rule ends the run with its number, which
+//! reproduces it.
 
 #[path = "../tests/all/common/mod.rs"]
 mod common;
 
-use common::fuzz::{Plan, run};
+use common::fuzz::{Plan, Report, run};
+use hyperbody_collision::limits;
+
+/// Pairs between two lines on standard error.
+const CHUNK: u64 = 10_000;
 
 fn check<const N: usize>(pairs: u64, seed: u64) {
     for spread in [1.5, 1e3] {
         let start = std::time::Instant::now();
-        // Hulls of differences cost far more than what they check: a tenth of the pairs has them.
-        let mut report = run::<N>(Plan { pairs: pairs / 10, seed, hull_points: 600, spread });
-        let rest = run::<N>(Plan { pairs: pairs - pairs / 10, seed: seed + 1, hull_points: 0, spread });
-        report.merge(&rest);
-        println!("N = {N}, sizes {} to {spread}: {report:#?}", 1.0 / spread);
-        println!("{:?} of the last {} pairs, {:.1} s", rest.effort, rest.pairs, start.elapsed().as_secs_f64());
+        let mut total = Report::default();
+        let mut done = 0;
+        while done < pairs / 2 {
+            // Hulls of differences cost far more than what they check: one pair in a hundred has them.
+            let chunk = CHUNK.min(pairs / 2 - done);
+            let (with_hull, without) = (chunk.div_ceil(100), chunk - chunk.div_ceil(100));
+            let seed = seed.wrapping_add(2 * done);
+            let face_pairs = 4000;
+            let mut report = run::<N>(Plan { pairs: with_hull, seed, hull_points: 200, face_pairs, spread });
+            report.merge(&run::<N>(Plan { pairs: without, seed: seed + 1, hull_points: 0, face_pairs, spread }));
+            total.merge(&report);
+            done += chunk;
+            eprintln!(
+                "N = {N}, sizes {} to {spread}: {done} pairs, {:.0} s",
+                1.0 / spread,
+                start.elapsed().as_secs_f64()
+            );
+        }
+        let effort = total.effort;
+        println!("N = {N}, sizes {} to {spread}, {:.0} s: {total:#?}", 1.0 / spread, start.elapsed().as_secs_f64());
+        println!("turns of a distance search at most {} of {}", effort.gjk_turns, limits::MAX_GJK_TURNS);
+        println!(
+            "vertices of a penetration search at most {} of {}",
+            effort.epa_vertices,
+            limits::MAX_EPA_VERTICES + N + 1
+        );
+        println!("facets of a penetration search at most {}, bound {}", effort.epa_facets, limits::MAX_EPA_FACETS);
+        println!("turns of a descent at most {} of {}", effort.descent_turns, limits::MAX_DESCENT_TURNS);
+        println!("vertices of a patch before it is reduced at most {}", effort.patch_vertices);
     }
 }
 
@@ -22,9 +52,11 @@ fn main() {
     let mut numbers = std::env::args().skip(1).filter_map(|text| text.parse().ok());
     let pairs = numbers.next().unwrap_or(10_000);
     let seed = numbers.next().unwrap_or(1);
-    check::<2>(pairs, seed);
-    check::<3>(pairs, seed);
-    check::<4>(pairs, seed);
-    check::<5>(pairs, seed);
-    check::<6>(pairs, seed);
+    let only = numbers.next();
+    let wanted = |n: u64| only.is_none_or(|only| only == n);
+    let checks: [(u64, fn(u64, u64)); 5] =
+        [(2, check::<2>), (3, check::<3>), (4, check::<4>), (5, check::<5>), (6, check::<6>)];
+    for (_, check) in checks.iter().filter(|(n, _)| wanted(*n)) {
+        check(pairs, seed);
+    }
 }

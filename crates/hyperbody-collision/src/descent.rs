@@ -12,11 +12,17 @@ use crate::gjk::{self, Proximity, Seeds};
 use crate::limits;
 use crate::round::Witness;
 
-/// The deepest points near a direction, in a's frame. `normal` is a unit vector, from a to b.
-pub(crate) fn descend<const N: usize>(difference: &Difference<'_, N>, mut normal: Vector<N>) -> Witness<N> {
+/// The deepest points near a direction, in a's frame. `normal` is a unit vector, from a to b; `turns`
+/// is raised to the number of turns taken.
+pub(crate) fn descend<const N: usize>(
+    difference: &Difference<'_, N>,
+    mut normal: Vector<N>,
+    turns: &mut u32,
+) -> Witness<N> {
     let mut depth = difference.reach(normal);
     let mut points = difference.vertices(difference.support(normal).key);
-    for _ in 0..limits::MAX_DESCENT_TURNS {
+    for turn in 1..=limits::MAX_DESCENT_TURNS {
+        *turns = turn.max(*turns);
         let freed = Pose {
             translation: difference.a_from_b.translation + normal * depth,
             rotation: difference.a_from_b.rotation,

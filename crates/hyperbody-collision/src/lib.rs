@@ -8,6 +8,7 @@
 //! | [`box_sat`] | separating axes of two boxes, all C(2N, N−1) of them |
 //! | [`ray`] | [`cast`](ray::cast): where a ray first meets a shape |
 //! | [`point`] | whether a point, or an axis-aligned box, is in a shape |
+//! | [`detect`] | the three detectors of the paper, each by itself |
 //! | [`query`] | distance, depth, overlap, nearest point, and casts of shapes that move and turn |
 //! | [`limits`] | every tolerance and every bound on a loop, each with its reason |
 //!
@@ -17,6 +18,7 @@
 pub mod box_sat;
 mod clip;
 mod descent;
+pub mod detect;
 mod difference;
 mod epa;
 mod faces;

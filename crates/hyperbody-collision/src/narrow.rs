@@ -58,12 +58,35 @@ pub struct Effort {
     pub patch_vertices: u32,
     /// Turns of one shape cast, at most [`crate::limits::MAX_CAST_TURNS`].
     pub cast_turns: u32,
+    /// Turns of one descent of the depth, at most [`crate::limits::MAX_DESCENT_TURNS`].
+    pub descent_turns: u32,
     /// Distance searches run.
     pub gjk_runs: u64,
     /// Penetration searches run.
     pub epa_runs: u64,
+    /// Penetration searches that ended at their bounds.
+    pub epa_unfinished: u64,
     /// Contacts held by the closest or deepest points because the facets' projections did not show them.
     pub witness_points: u64,
+}
+
+impl Effort {
+    /// The larger of each maximum, the sum of each count.
+    #[must_use]
+    pub fn merged(&self, other: &Self) -> Self {
+        Self {
+            gjk_turns: self.gjk_turns.max(other.gjk_turns),
+            epa_vertices: self.epa_vertices.max(other.epa_vertices),
+            epa_facets: self.epa_facets.max(other.epa_facets),
+            patch_vertices: self.patch_vertices.max(other.patch_vertices),
+            cast_turns: self.cast_turns.max(other.cast_turns),
+            descent_turns: self.descent_turns.max(other.descent_turns),
+            gjk_runs: self.gjk_runs + other.gjk_runs,
+            epa_runs: self.epa_runs + other.epa_runs,
+            epa_unfinished: self.epa_unfinished + other.epa_unfinished,
+            witness_points: self.witness_points + other.witness_points,
+        }
+    }
 }
 
 /// Finds the contacts of piece `a` at `world_from_a` with piece `b` at `world_from_b` and puts them into `out`, whatever

@@ -24,6 +24,7 @@ mod separation;
 pub use cast::{ShapeHit, shape_cast, shape_cast_on_piece, time_of_impact};
 pub use motion::Motion;
 pub use project::{Projection, project, project_on_piece};
+pub(crate) use separation::separation_by_difference;
 pub use separation::{
     Closest, Separation, closest, closest_of_pieces, overlap, pieces_overlap, separation, separation_of_pieces,
 };

@@ -310,15 +310,28 @@ fn separate_convex<const N: usize>(
     world_from_b: &Pose<N>,
     scratch: &mut Scratch<N>,
 ) -> Separation<N> {
-    let witness = known(&a.core, world_from_a, &b.core, world_from_b).unwrap_or_else(|| {
-        let a_from_b = world_from_a.relative(world_from_b);
-        by_difference(&Difference::new(&a.core, &b.core, &a_from_b), scratch).transformed(world_from_a)
-    });
-    Separation::of_cores(&witness, a.radius, b.radius)
+    if let Some(witness) = known(&a.core, world_from_a, &b.core, world_from_b) {
+        return Separation::of_cores(&witness, a.radius, b.radius);
+    }
+    let a_from_b = world_from_a.relative(world_from_b);
+    let difference = Difference::new(&a.core, &b.core, &a_from_b);
+    separation_by_difference(&difference, world_from_a, a.radius, b.radius, scratch)
+}
+
+/// Distance or depth of two rounded cores by their Minkowski difference alone, in the world.
+pub(crate) fn separation_by_difference<const N: usize>(
+    difference: &Difference<'_, N>,
+    world_from_a: &Pose<N>,
+    radius_a: f64,
+    radius_b: f64,
+    scratch: &mut Scratch<N>,
+) -> Separation<N> {
+    let witness = by_difference(difference, scratch).transformed(world_from_a);
+    Separation::of_cores(&witness, radius_a, radius_b)
 }
 
 /// Closest or deepest points of two cores, in a's frame, by the Minkowski difference alone.
-pub(crate) fn by_difference<const N: usize>(difference: &Difference<'_, N>, scratch: &mut Scratch<N>) -> Witness<N> {
+fn by_difference<const N: usize>(difference: &Difference<'_, N>, scratch: &mut Scratch<N>) -> Witness<N> {
     let mut turns = 0;
     let toward_b = difference.a_from_b.translation;
     let proximity = gjk::closest(difference, &Seeds::default(), toward_b, f64::INFINITY, &mut turns);
@@ -335,7 +348,12 @@ pub(crate) fn by_difference<const N: usize>(difference: &Difference<'_, N>, scra
             scratch.effort.epa_vertices = scratch.effort.epa_vertices.max(cost.vertices);
             scratch.effort.epa_facets = scratch.effort.epa_facets.max(cost.facets);
             let unfinished = found.facet.is_none() || found.at_least < found.depth - limits::EPA_GAP * difference.scale;
-            if unfinished { shallowest_near(difference, &found) } else { general::deepest(difference, &found) }
+            scratch.effort.epa_unfinished += u64::from(unfinished);
+            if unfinished {
+                shallowest_near(difference, &found, &mut scratch.effort.descent_turns)
+            } else {
+                general::deepest(difference, &found)
+            }
         }
         // Nothing is farther away than infinity.
         Proximity::Apart { normal } => {
@@ -347,10 +365,14 @@ pub(crate) fn by_difference<const N: usize>(difference: &Difference<'_, N>, scra
 
 /// What is to be had where the penetration search ended at its bounds: the least depth near its best direction or near
 /// the best facet normal.
-fn shallowest_near<const N: usize>(difference: &Difference<'_, N>, found: &epa::Penetration<N>) -> Witness<N> {
-    let by_search = descent::descend(difference, found.normal);
+fn shallowest_near<const N: usize>(
+    difference: &Difference<'_, N>,
+    found: &epa::Penetration<N>,
+    turns: &mut u32,
+) -> Witness<N> {
+    let by_search = descent::descend(difference, found.normal, turns);
     let thickness = overlap::thickness(difference);
     let Some(facet) = overlap::best_facet(difference, thickness, Feature::None, found.normal) else { return by_search };
-    let by_facet = descent::descend(difference, facet.normal);
+    let by_facet = descent::descend(difference, facet.normal, turns);
     if by_facet.separation > by_search.separation { by_facet } else { by_search }
 }

@@ -4,6 +4,7 @@
 mod common;
 
 mod degenerate;
+mod detectors;
 mod fuzz;
 mod manifolds;
 mod persistence;

@@ -91,7 +91,7 @@ fn polytopes_meet_as_rays_meet_differences<const N: usize>() {
         let Ok(hull) = Polytope::from_points(&points) else { continue };
         let difference = Shape::polytope(Arc::new(hull)).expect("a solid");
         let off = random.direction::<N>() * (scale * random.range(2.0, 4.0));
-        let velocity = random.vector::<N>(0.25 * scale) + (pose_b.translation - start.translation - off) * 0.5;
+        let velocity = random.vector::<N>(0.12 * scale) + (pose_b.translation - start.translation - off) * 0.5;
         start.translation += off;
         let expected = cast(&Ray::new(off, velocity).up_to(4.0), &difference, &Pose::IDENTITY);
         let motion = Motion::linear(start, velocity);
@@ -122,7 +122,7 @@ fn polytopes_meet_as_rays_meet_differences<const N: usize>() {
             }
         }
     }
-    assert!(hits > 15 && misses > 5, "{hits} hits and {misses} misses in {N}D");
+    assert!(hits > 8 && misses > 5, "{hits} hits and {misses} misses in {N}D");
 }
 
 #[test]

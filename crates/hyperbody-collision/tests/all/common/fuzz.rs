@@ -1,6 +1,9 @@
 //! Random pairs of every kind and size, and what a contact of theirs must satisfy.
 
+use hyperbody_collision::detect::SeparatingAxes;
+use hyperbody_collision::query::{pieces_overlap, separation_of_pieces};
 use hyperbody_collision::{Effort, Manifold, PairCache, Scratch, collide, limits, max_points};
+use hyperbody_geometry::regular::{Regular, Size};
 use hyperbody_geometry::shape::Piece;
 use hyperbody_geometry::{Core, Polytope, Shape};
 use hyperbody_math::{Pose, Rotation, Vector};
@@ -28,6 +31,16 @@ pub struct Report {
     pub depth_shortfall: f64,
     /// How far contact points lie outside the shapes, in parts of both sizes.
     pub outside: f64,
+    /// Depths compared with the separating axes of all pairs of faces.
+    pub depths_by_axes: u64,
+    /// Depths that a descent from random directions tried to undercut.
+    pub depths_by_descent: u64,
+    /// Of the query for distance and depth: distance (depth) off what its normal certifies, in parts of both sizes.
+    pub query_error: f64,
+    /// How far its points lie outside the shapes, in parts of both sizes.
+    pub query_outside: f64,
+    /// Its depth above the least possible, in parts of both sizes.
+    pub query_excess: f64,
     pub effort: Effort,
 }
 
@@ -42,6 +55,12 @@ impl Report {
         self.depth_excess = self.depth_excess.max(other.depth_excess);
         self.depth_shortfall = self.depth_shortfall.max(other.depth_shortfall);
         self.outside = self.outside.max(other.outside);
+        self.depths_by_axes += other.depths_by_axes;
+        self.depths_by_descent += other.depths_by_descent;
+        self.query_error = self.query_error.max(other.query_error);
+        self.query_outside = self.query_outside.max(other.query_outside);
+        self.query_excess = self.query_excess.max(other.query_excess);
+        self.effort = self.effort.merged(&other.effort);
     }
 }
 
@@ -52,6 +71,8 @@ pub struct Plan {
     pub seed: u64,
     /// Compare depths with the hull of differences up to this many points.
     pub hull_points: usize,
+    /// Compare depths with separating axes up to this many pairs of faces.
+    pub face_pairs: u64,
     /// Half-extents and radii are drawn from 1/spread to spread.
     pub spread: f64,
 }
@@ -61,9 +82,20 @@ fn random_size(random: &mut Random, spread: f64) -> f64 {
 }
 
 fn random_polytope<const N: usize>(random: &mut Random, size: f64) -> Option<Polytope<N>> {
-    let kind = random.below(3);
+    let kind = random.below(4);
     let mut points: Vec<Vector<N>> = Vec::new();
     match kind {
+        // A regular polytope.
+        3 => {
+            let regular = match random.below(if N == 4 { 4 } else { 3 }) {
+                0 => Regular::Simplex,
+                1 => Regular::CrossPolytope,
+                2 => Regular::Cube,
+                _ => Regular::Cell24,
+            };
+            let solid = regular.polytope::<N>(Size::Circumradius(size)).ok()?;
+            points.extend_from_slice(solid.vertices());
+        }
         // A few points on a sphere.
         0 => points.extend((0..N + 1 + random.below(N + 4)).map(|_| random.direction::<N>() * size)),
         // A cross-polytope stretched along its axes.
@@ -198,7 +230,7 @@ pub fn run<const N: usize>(plan: Plan) -> Report {
 /// Checks one pair that was not drawn, with all that is asked of drawn ones.
 pub fn check_pair<const N: usize>(name: &str, a: &Piece<N>, pose_a: Pose<N>, b: &Piece<N>, pose_b: Pose<N>) -> Report {
     let small = convex(a).bounding_radius().min(convex(b).bounding_radius());
-    let plan = Plan { pairs: 1, seed: 1, hull_points: 300, spread: 1.0 };
+    let plan = Plan { pairs: 1, seed: 1, hull_points: 300, face_pairs: 3000, spread: 1.0 };
     let name = format!("N = {N}, {name}, {} and {}", kind(a), kind(b));
     Drawn { a, b, pose_a, pose_b, name, small, plan }.check(&mut Random(1), &mut Scratch::default())
 }
@@ -239,6 +271,7 @@ impl<const N: usize> Drawn<'_, N> {
             .least_separation()
             .unwrap_or_else(|| panic!("{}: no answer {:?} {:?}", self.name, self.pose_a, self.pose_b));
         self.judge(&truth, &out, &mut report);
+        self.judge_query(&truth, random, scratch, &mut report);
         // With a margin, from nothing and from a history.
         for step in 0..3 {
             collide(self.a, &self.pose_a, self.b, &self.pose_b, margin, &mut cache, scratch, &mut out);
@@ -305,6 +338,41 @@ impl<const N: usize> Drawn<'_, N> {
         } else {
             self.judge_depth(truth, -along, report);
         }
+    }
+
+    /// Whether the query for distance and depth is right: its normal certifies a lower bound, its points an upper one, and
+    /// where the shapes overlap no other direction may be shallower, as two other algorithms see it.
+    fn judge_query(&self, truth: &Truth<'_, N>, random: &mut Random, scratch: &mut Scratch<N>, report: &mut Report) {
+        let name = &self.name;
+        let found = separation_of_pieces(self.a, &self.pose_a, self.b, &self.pose_b, scratch)
+            .unwrap_or_else(|| panic!("{name}: no separation"));
+        let rounding = 1e-8 * truth.scale;
+        let error = (found.distance - (truth.separation(found.normal) - truth.rounding)).abs();
+        report.query_error = report.query_error.max(error / truth.scale);
+        assert!(error <= rounding, "{name}: {found:?} is {error} off its normal");
+        let outside = truth.outside_a(found.on_a).max(truth.outside_b(found.on_b));
+        report.query_outside = report.query_outside.max(outside / truth.scale);
+        assert!(outside <= 10.0 * rounding, "{name}: {found:?} has points {outside} outside");
+        if found.distance.abs() > 10.0 * rounding {
+            let meet = pieces_overlap(self.a, &self.pose_a, self.b, &self.pose_b);
+            assert_eq!(meet, found.distance < 0.0, "{name}: {found:?}");
+        }
+        let depth = -found.distance - truth.rounding;
+        if depth <= rounding {
+            return;
+        }
+        let mut least = truth.least_depth_nearby(random, 4);
+        report.depths_by_descent += 1;
+        let (axes_a, axes_b) = (SeparatingAxes::of_core(&truth.a.clone()), SeparatingAxes::of_core(&truth.b.clone()));
+        let exact = axes_a.pairs_with(&axes_b) <= self.plan.face_pairs;
+        if exact && let Some(axis) = axes_a.separate(&self.pose_a, &axes_b, &self.pose_b) {
+            report.depths_by_axes += 1;
+            let by_axes = -axis.separation;
+            assert!(depth >= by_axes - rounding, "{name}: depth {depth}, by separating axes {by_axes}");
+            least = least.min(by_axes);
+        }
+        report.query_excess = report.query_excess.max((depth - least) / truth.scale);
+        assert!(depth <= least + rounding, "{name}: depth {depth}, but {least} is possible");
     }
 
     fn judge_depth(&self, truth: &Truth<'_, N>, depth: f64, report: &mut Report) {

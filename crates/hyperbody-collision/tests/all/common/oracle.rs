@@ -5,6 +5,8 @@ use hyperbody_geometry::shape::Piece;
 use hyperbody_geometry::{Convex, Core, Polytope};
 use hyperbody_math::{Pose, Vector};
 
+use super::Random;
+
 /// The vertices of a core in the world.
 pub fn vertices<const N: usize>(core: &Core<N>, pose: &Pose<N>) -> Vec<Vector<N>> {
     let local: Vec<Vector<N>> = match core {
@@ -72,6 +74,44 @@ impl<'a, const N: usize> Truth<'a, N> {
         let hull = Polytope::from_points(&points).ok()?;
         let depth = hull.facets().iter().map(|facet| facet.offset).fold(f64::INFINITY, f64::min);
         (depth > 0.0).then_some(depth)
+    }
+
+    /// The least depth of the cores that a descent finds from random directions, and from those of the axes: steps against
+    /// the gradient of the support value on the sphere, ever shorter. An upper bound on the least depth.
+    pub fn least_depth_nearby(&self, random: &mut Random, starts: usize) -> f64 {
+        let mut least = f64::INFINITY;
+        for start in 0..starts + N {
+            let mut n = if start < starts {
+                random.direction()
+            } else {
+                self.pose_a.rotation.rotate(Vector::unit(start - starts))
+            };
+            if start >= starts && (self.pose_b.translation - self.pose_a.translation).dot(n) < 0.0 {
+                n = -n;
+            }
+            let mut step = 0.5;
+            for _ in 0..24 {
+                let farthest = self.farthest_difference(n);
+                let depth = farthest.dot(n);
+                least = least.min(depth);
+                let Some(uphill) = (farthest - n * depth).try_normalize() else { break };
+                let Some(next) = (n - uphill * step).try_normalize() else { break };
+                if self.farthest_difference(next).dot(next) < depth {
+                    n = next;
+                } else {
+                    step *= 0.5;
+                }
+            }
+        }
+        least
+    }
+
+    /// The difference of vertices farthest along a direction.
+    fn farthest_difference(&self, n: Vector<N>) -> Vector<N> {
+        let farthest = |vertices: &[Vector<N>], n: Vector<N>| {
+            vertices.iter().copied().fold(vertices[0], |best, v| if v.dot(n) > best.dot(n) { v } else { best })
+        };
+        farthest(&self.vertices_a, n) - farthest(&self.vertices_b, -n)
     }
 
     /// The lesser inner radius about the origins of those cores that have one.
