@@ -53,10 +53,14 @@ fn main() {
     let pairs = numbers.next().unwrap_or(10_000);
     let seed = numbers.next().unwrap_or(1);
     let only = numbers.next();
-    let wanted = |n: u64| only.is_none_or(|only| only == n);
-    let checks: [(u64, fn(u64, u64)); 5] =
-        [(2, check::<2>), (3, check::<3>), (4, check::<4>), (5, check::<5>), (6, check::<6>)];
-    for (_, check) in checks.iter().filter(|(n, _)| wanted(*n)) {
-        check(pairs, seed);
+    for n in only.map_or(2..=6, |n| n..=n) {
+        match n {
+            2 => check::<2>(pairs, seed),
+            3 => check::<3>(pairs, seed),
+            4 => check::<4>(pairs, seed),
+            5 => check::<5>(pairs, seed),
+            6 => check::<6>(pairs, seed),
+            _ => eprintln!("{n} is not a dimension of this engine: 2 to 6 are"),
+        }
     }
 }

@@ -7,14 +7,15 @@
 //! Two bounds hold at any time: the distance of the nearest facet from below (the inner polytope lies in D), and the
 //! least support value seen from above (moving b that far along that direction does separate the two). The search can
 //! therefore be cut off anywhere, by [`limits::MAX_EPA_VERTICES`] and [`limits::MAX_EPA_FACETS`], and still returns a
-//! translation that separates. It also ends early once the lower bound shows a depth known before to be good enough.
+//! translation that separates; local descents ([`crate::descent`]) from the facets nearest then make it one that is the
+//! shortest among its neighbours. It also ends early once the lower bound shows a depth known before to be good enough.
 
 use hyperbody_math::Vector;
 
 use crate::difference::{Difference, Vertex};
 use crate::inner_hull::{InnerHull, Insertion};
-use crate::limits;
 use crate::simplex::Simplex;
+use crate::{descent, limits};
 
 /// The least depth of two overlapping cores.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,8 @@ pub(crate) struct Penetration<const N: usize> {
     pub(crate) at_least: f64,
     /// The vertices of the facet whose normal it is, if the normal comes from one.
     pub(crate) facet: Option<[Vertex<N>; N]>,
+    /// The deepest points of A and B, if the search ended at its bounds and a descent found the normal.
+    pub(crate) points: Option<[Vector<N>; 2]>,
 }
 
 /// What the search took.
@@ -34,6 +37,8 @@ pub(crate) struct Penetration<const N: usize> {
 pub(crate) struct Cost {
     pub(crate) vertices: u32,
     pub(crate) facets: u32,
+    /// Most turns of one descent; zero if the search was carried to its end.
+    pub(crate) descent_turns: u32,
 }
 
 /// Searches the least depth. `start` are vertices of D whose hull holds the origin, `good_enough` a lower bound at
@@ -45,8 +50,13 @@ pub(crate) fn penetrate<const N: usize>(
     hull: &mut InnerHull<N>,
 ) -> (Penetration<N>, Cost) {
     let gap = limits::EPA_GAP * difference.scale;
-    let mut best =
-        Penetration { normal: Vector::unit(0), depth: f64::INFINITY, at_least: f64::NEG_INFINITY, facet: None };
+    let mut best = Penetration {
+        normal: Vector::unit(0),
+        depth: f64::INFINITY,
+        at_least: f64::NEG_INFINITY,
+        facet: None,
+        points: None,
+    };
     if let Err(flat) = first_simplex(difference, start, hull, gap) {
         // D has no inside: the direction across it separates at no depth to speak of.
         let depth = difference.reach(flat);
@@ -90,7 +100,31 @@ pub(crate) fn penetrate<const N: usize>(
             Insertion::Full => break,
         }
     }
-    (best, hull.cost())
+    let mut cost = hull.cost();
+    if best.at_least < good_enough.min(best.depth - gap) {
+        descend_from_nearest(difference, hull, &mut best, &mut cost);
+    }
+    (best, cost)
+}
+
+/// Where the search ended at its bounds, the way out lies beyond one of the facets that are nearest then: the best of what
+/// descents from these find, and from the best direction so far.
+fn descend_from_nearest<const N: usize>(
+    difference: &Difference<'_, N>,
+    hull: &mut InnerHull<N>,
+    best: &mut Penetration<N>,
+    cost: &mut Cost,
+) {
+    let mut start = best.normal;
+    for _ in 0..=limits::DESCENT_STARTS {
+        let found = descent::descend(difference, start, &mut cost.descent_turns);
+        if best.points.is_none() || -found.separation < best.depth {
+            (best.normal, best.depth) = (found.normal, -found.separation);
+            (best.points, best.facet) = (Some([found.on_a, found.on_b]), None);
+        }
+        let Some((_, facet)) = hull.nearest_facet() else { return };
+        start = hull.normal(facet);
+    }
 }
 
 /// Completes the start to a simplex of full dimension. On failure the direction in which D is flat.

@@ -176,7 +176,7 @@ fn preferred_facet<const N: usize>(
     overlap::best_facet(difference, thickness, cache.feature, guess(difference, cache))
 }
 
-fn penetrate<const N: usize>(
+pub(crate) fn penetrate<const N: usize>(
     difference: &Difference<'_, N>,
     simplex: &Simplex<N>,
     enough: f64,
@@ -186,12 +186,17 @@ fn penetrate<const N: usize>(
     scratch.effort.epa_runs += 1;
     scratch.effort.epa_vertices = scratch.effort.epa_vertices.max(cost.vertices);
     scratch.effort.epa_facets = scratch.effort.epa_facets.max(cost.facets);
+    scratch.effort.epa_unfinished += u64::from(cost.descent_turns > 0);
+    scratch.effort.descent_turns = scratch.effort.descent_turns.max(cost.descent_turns);
     found
 }
 
 /// Where the cores are deepest along a way out: the foot of the origin on the facet of D, or else the middle between
 /// the farthest vertices.
 pub(crate) fn deepest<const N: usize>(difference: &Difference<'_, N>, way: &Penetration<N>) -> Witness<N> {
+    if let Some([on_a, on_b]) = way.points {
+        return Witness { normal: way.normal, on_a, on_b, separation: -way.depth };
+    }
     let foot = way.facet.and_then(|vertices| Simplex::foot_on(&vertices));
     let [on_a, on_b] = match foot {
         Some(foot) => foot.clamped().witnesses(difference),

@@ -114,7 +114,7 @@ impl<const N: usize> InnerHull<N> {
     }
 
     pub(crate) fn cost(&self) -> Cost {
-        Cost { vertices: self.vertices.len() as u32, facets: self.facets.len() as u32 }
+        Cost { vertices: self.vertices.len() as u32, facets: self.facets.len() as u32, descent_turns: 0 }
     }
 
     /// Pushes facet `from` out to a vertex that lies above it.

@@ -82,6 +82,9 @@ pub const MAX_EPA_FACETS: usize = 16_384;
 /// Bound on the turns of the descent that takes over where the penetration search ends at its bounds.
 pub const MAX_DESCENT_TURNS: u32 = 32;
 
+/// From how many facets of the penetration search that ended at its bounds descents start.
+pub const DESCENT_STARTS: u32 = 24;
+
 /// How often in a row a normal that won before, and is still the best in its neighbourhood, may win again without a
 /// full search: because no way out can be shorter than [`RECHECK_FRACTION`] of its depth, or because the overlap is
 /// [`SHALLOW`], so that no way out can be shorter by more than that.

@@ -14,7 +14,7 @@ use crate::difference::Difference;
 use crate::gjk::{self, Proximity, Seeds};
 use crate::narrow::{Scratch, is_finite, plane_in_world};
 use crate::round::{self, Segment, Witness};
-use crate::{descent, epa, general, limits, overlap};
+use crate::{descent, general, overlap};
 
 /// How two shapes lie to each other, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -343,17 +343,10 @@ fn by_difference<const N: usize>(difference: &Difference<'_, N>, scratch: &mut S
             Witness { normal: near.normal, on_a, on_b, separation: near.distance }
         }
         Proximity::Overlap(simplex) => {
-            let (found, cost) = epa::penetrate(difference, simplex.vertices(), f64::INFINITY, &mut scratch.hull);
-            scratch.effort.epa_runs += 1;
-            scratch.effort.epa_vertices = scratch.effort.epa_vertices.max(cost.vertices);
-            scratch.effort.epa_facets = scratch.effort.epa_facets.max(cost.facets);
-            let unfinished = found.facet.is_none() || found.at_least < found.depth - limits::EPA_GAP * difference.scale;
-            scratch.effort.epa_unfinished += u64::from(unfinished);
-            if unfinished {
-                shallowest_near(difference, &found, &mut scratch.effort.descent_turns)
-            } else {
-                general::deepest(difference, &found)
-            }
+            let found = general::penetrate(difference, &simplex, f64::INFINITY, scratch);
+            let witness = general::deepest(difference, &found);
+            let cut_off = found.points.is_some();
+            if cut_off { shallower_by_facet(difference, witness, &mut scratch.effort.descent_turns) } else { witness }
         }
         // Nothing is farther away than infinity.
         Proximity::Apart { normal } => {
@@ -363,16 +356,14 @@ fn by_difference<const N: usize>(difference: &Difference<'_, N>, scratch: &mut S
     }
 }
 
-/// What is to be had where the penetration search ended at its bounds: the least depth near its best direction or near
-/// the best facet normal.
-fn shallowest_near<const N: usize>(
+/// The witness, or what a descent from the best facet normal finds if that is shallower.
+fn shallower_by_facet<const N: usize>(
     difference: &Difference<'_, N>,
-    found: &epa::Penetration<N>,
+    witness: Witness<N>,
     turns: &mut u32,
 ) -> Witness<N> {
-    let by_search = descent::descend(difference, found.normal, turns);
     let thickness = overlap::thickness(difference);
-    let Some(facet) = overlap::best_facet(difference, thickness, Feature::None, found.normal) else { return by_search };
+    let Some(facet) = overlap::best_facet(difference, thickness, Feature::None, witness.normal) else { return witness };
     let by_facet = descent::descend(difference, facet.normal, turns);
-    if by_facet.separation > by_search.separation { by_facet } else { by_search }
+    if by_facet.separation > witness.separation { by_facet } else { witness }
 }

@@ -31,16 +31,19 @@ impl<const N: usize> Slabs<N> {
     /// the box, 0·∞ is NaN, which no comparison takes: the face does not exclude it.
     #[inline]
     fn entry(&self, aabb: &Aabb<N>, max_fraction: f64) -> f64 {
-        let (mut enter, mut exit) = (0.0, max_fraction);
+        let (mut near, mut far) = ([0.0; N], [0.0; N]);
         for i in 0..N {
             let inverse = self.inverse.0[i];
+            let lower = (aabb.lower.0[i] - self.origin.0[i]) * inverse;
+            let upper = (aabb.upper.0[i] - self.origin.0[i]) * inverse;
             let backwards = inverse < 0.0;
-            let (near, far) =
-                if backwards { (aabb.upper.0[i], aabb.lower.0[i]) } else { (aabb.lower.0[i], aabb.upper.0[i]) };
-            let near = (near - self.origin.0[i]) * inverse;
-            let far = (far - self.origin.0[i]) * inverse;
-            enter = if near > enter { near } else { enter };
-            exit = if far < exit { far } else { exit };
+            near[i] = if backwards { upper } else { lower };
+            far[i] = if backwards { lower } else { upper };
+        }
+        let (mut enter, mut exit) = (0.0, max_fraction);
+        for i in 0..N {
+            enter = if near[i] > enter { near[i] } else { enter };
+            exit = if far[i] < exit { far[i] } else { exit };
         }
         if enter <= exit * (1.0 + RAY_BOX_SLACK) { enter } else { f64::INFINITY }
     }
@@ -111,36 +114,34 @@ impl<const N: usize> DynamicTree<N> {
         }
         let entries = &mut stack.entries;
         entries.clear();
-        let first = entry(&self.nodes[self.root as usize].aabb, reach);
-        if first < f64::INFINITY {
-            entries.push((first, self.root));
-        }
-        // Every node is pushed at most once, by its only parent.
-        while let Some((begins, index)) = entries.pop() {
-            if begins > reach * (1.0 + RAY_BOX_SLACK) {
-                continue;
-            }
-            let node = &self.nodes[index as usize];
-            if node.state == State::Leaf {
+        let (mut begins, mut index) = (entry(&self.nodes[self.root as usize].aabb, reach), self.root);
+        // Every node is looked at once, from its only parent.
+        loop {
+            if begins <= reach * (1.0 + RAY_BOX_SLACK) && begins < f64::INFINITY {
+                let node = &self.nodes[index as usize];
+                if node.state == State::Inner {
+                    let [first, second] = node.children;
+                    let enter_first = entry(&self.nodes[first as usize].aabb, reach);
+                    let enter_second = entry(&self.nodes[second as usize].aabb, reach);
+                    let far = if enter_second < enter_first {
+                        (begins, index) = (enter_second, second);
+                        (enter_first, first)
+                    } else {
+                        (begins, index) = (enter_first, first);
+                        (enter_second, second)
+                    };
+                    if far.0 < f64::INFINITY {
+                        entries.push(far);
+                    }
+                    continue;
+                }
                 match visit(node.user, reach) {
                     Some(next) => reach = if next < reach { next } else { reach },
                     None => return,
                 }
-                continue;
             }
-            let [first, second] = node.children;
-            let [enter_first, enter_second] = node.children.map(|child| entry(&self.nodes[child as usize].aabb, reach));
-            let (near, far) = if enter_second < enter_first {
-                ((enter_second, second), (enter_first, first))
-            } else {
-                ((enter_first, first), (enter_second, second))
-            };
-            if far.0 < f64::INFINITY {
-                entries.push(far);
-            }
-            if near.0 < f64::INFINITY {
-                entries.push(near);
-            }
+            let Some(next) = entries.pop() else { return };
+            (begins, index) = next;
         }
     }
 }

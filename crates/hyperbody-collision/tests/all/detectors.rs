@@ -13,7 +13,7 @@ use hyperbody_math::{Pose, Vector};
 /// Polytopes of few vertices, of many coplanar ones, flat ones, and regular ones.
 fn polytope<const N: usize>(random: &mut Random) -> Arc<Polytope<N>> {
     let points: Vec<Vector<N>> = match random.below(4) {
-        0 => (0..N + 2 + random.below(3)).map(|_| random.direction()).collect(),
+        0 => (0..N + 1 + random.below(2)).map(|_| random.direction()).collect(),
         1 => (0..2 * N).map(|_| Vector::from_fn(|_| random.below(3) as f64 - 1.0)).collect(),
         2 => {
             (0..N + 3).map(|_| Vector::from_fn(|i| random.range(-1.0, 1.0) * if i == 0 { 0.01 } else { 1.0 })).collect()
@@ -100,7 +100,7 @@ fn axes_and_differences<const N: usize>() {
     for index in 0..150 {
         let (a, b) = (polytope::<N>(&mut random), polytope::<N>(&mut random));
         let (axes_a, axes_b) = (SeparatingAxes::new(&a), SeparatingAxes::new(&b));
-        if axes_a.pairs_with(&axes_b) > 6000 {
+        if axes_a.pairs_with(&axes_b) > 12_000 {
             continue;
         }
         let (pose_a, pose_b) = (random.pose::<N>(0.3), random.pose::<N>(0.6));
@@ -118,7 +118,7 @@ fn axes_and_differences<const N: usize>() {
         let back = axes_b.separate(&pose_b, &axes_a, &pose_a).expect("solids have axes");
         assert!((back.separation - by_axes.separation).abs() < 1e-9 && back.axes == by_axes.axes);
     }
-    assert!(deep > 15 && apart > 5, "{deep} overlapping and {apart} disjoint pairs in {N}D");
+    assert!(deep > 5 && apart > 5, "{deep} overlapping and {apart} disjoint pairs in {N}D");
 }
 
 #[test]

@@ -44,6 +44,8 @@ pub struct Queries<'w, const N: usize> {
     world: &'w World<N>,
     /// By the slot of the collider.
     world_from_collider: Vec<Pose<N>>,
+    /// Radius of the ball about the origin of its frame that holds the collider; infinite for half-spaces.
+    reaches: Vec<f64>,
     /// Colliders that the tree does not hold where they are: half-spaces, and those out of their boxes. Ascending.
     apart: Vec<u32>,
     /// The same, by slot.
@@ -69,6 +71,7 @@ impl<const N: usize> World<N> {
         let mut queries = Queries {
             world: self,
             world_from_collider: Vec::with_capacity(self.colliders.len()),
+            reaches: Vec::with_capacity(self.colliders.len()),
             apart: Vec::new(),
             is_apart: Vec::with_capacity(self.colliders.len()),
         };
@@ -82,6 +85,8 @@ impl<const N: usize> World<N> {
             }
             queries.world_from_collider.push(pose);
             queries.is_apart.push(apart);
+            let bounded = collider.as_ref().filter(|collider| collider.proxy.is_some());
+            queries.reaches.push(bounded.map_or(f64::INFINITY, |collider| collider.reach));
         }
         queries
     }

@@ -86,19 +86,19 @@ impl<const N: usize> Queries<'_, N> {
         if !ray.is_valid() {
             return;
         }
-        let speed_sq = ray.direction.norm_sq();
+        let inverse_speed_sq = 1.0 / ray.direction.norm_sq();
+        // What costs least comes first; the filter is asked for what is hit.
         let mut look = |slot: u32, reach: f64| {
-            let Some(collider) = &self.world.colliders[slot as usize] else { return Some(reach) };
             let pose = &self.world_from_collider[slot as usize];
-            if (collider.proxy.is_some() && passes_ball(ray, speed_sq, pose.translation, collider.reach))
-                || self.candidate(slot, filter).is_none()
-            {
+            if passes_ball(ray, inverse_speed_sq, pose.translation, self.reaches[slot as usize]) {
                 return Some(reach);
             }
-            let seen = ray.up_to(reach).seen_from(pose);
-            match cast_on_piece(&seen, &collider.piece) {
-                Some(hit) => visit(slot, &hit).map(|next| next.min(reach)),
-                None => Some(reach),
+            let Some(collider) = &self.world.colliders[slot as usize] else { return Some(reach) };
+            match cast_on_piece(&ray.up_to(reach).seen_from(pose), &collider.piece) {
+                Some(hit) if self.candidate(slot, filter).is_some() => {
+                    visit(slot, &hit).map(|next| if next < reach { next } else { reach })
+                }
+                _ => Some(reach),
             }
         };
         let mut reach = ray.max_fraction;
@@ -124,9 +124,9 @@ impl<const N: usize> Queries<'_, N> {
 /// Whether the line of a ray passes by a ball, beyond doubt by rounding. The ball around a turned body fills little of the
 /// body's box, the less the higher the dimension, so this spares most turns of rays into the frames of bodies.
 #[inline]
-fn passes_ball<const N: usize>(ray: &Ray<N>, speed_sq: f64, centre: Vector<N>, radius: f64) -> bool {
+fn passes_ball<const N: usize>(ray: &Ray<N>, inverse_speed_sq: f64, centre: Vector<N>, radius: f64) -> bool {
     let away = centre - ray.origin;
-    let closest = away - ray.direction * (away.dot(ray.direction) / speed_sq);
-    let limit = radius * (1.0 + 1e-9) + 1e-14 * away.norm();
-    closest.norm_sq() > limit * limit
+    let closest = away - ray.direction * (away.dot(ray.direction) * inverse_speed_sq);
+    // (r + e)² ≤ r²(1 + 1e-9) + e²(1 + 1e9), where e is a hundred roundings of the way to the centre.
+    closest.norm_sq() > radius * radius * (1.0 + 2e-9) + 1e-18 * away.norm_sq()
 }
