@@ -1,17 +1,18 @@
 //! `cargo xtask pictures`: the pictures and films of the README and of the gallery page, drawn from the built-in scenes.
 //!
-//! docs/pictures/inputs.json remembers what each was drawn from: the command, the scene, and how the renderer looks. The
-//! check compares that with what is there now, and draws a single small picture for it. That a change of the solver moves
-//! the bodies in a picture is not noticed; the pictures are then of an earlier engine, not of another scene.
+//! docs/pictures/inputs.json remembers for each what it was drawn from: the command, the hash of the simulation's state at
+//! the last moment it shows, how it looks, by the hash of a small picture or film by the same command, and the hash of the
+//! file. The check does all but draw the large ones, and so sees a change of the scene, of the solver, of the renderer, of
+//! the encoders and of the files, in some seconds.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::process::{build_hyperbody, read, root, run as run_command, target_directory};
+use crate::process::{build_hyperbody, read, root, target_directory};
 use crate::{Outcome, scenes};
 
 /// Where the pictures are, seen from the repository's root.
@@ -37,28 +38,31 @@ struct Picture {
     /// In the folder of pictures.
     file: String,
     scene: String,
+    /// Pixels across and down.
+    size: (u32, u32),
     options: Vec<String>,
 }
 
-/// The pictures and films of the README and of the chapters: file, scene, options.
-const SHOWN: [(&str, &str, &str); 4] = [
+/// The pictures and films of the README and of the chapters: file, scene, size, options.
+const SHOWN: [(&str, &str, (u32, u32), &str); 4] = [
     (
         "falling.gif",
         "pit4d",
-        "--seconds 3.6 --speed 0.6 --frame-rate 13 --camera 34,13,12.5 --look-at 0,1.9,0 --width 512 --height 288 \
-         --no-caption",
+        (512, 288),
+        "--seconds 3.6 --speed 0.6 --frame-rate 13 --camera 34,13,12.5 --look-at 0,1.9,0 --no-caption",
     ),
-    ("dice4d.png", "dice4d", "--at 1 --slice w=-0.5 --camera 30,16,7.4 --width 1200 --height 560 --quality 8"),
+    ("dice4d.png", "dice4d", (1200, 560), "--at 1 --slice w=-0.5 --camera 30,16,7.4 --quality 8"),
     (
         "through-w.gif",
         "dice4d",
-        "--at 3 --speed 0 --seconds 4 --frame-rate 10 --slice w=-1.6 --slice-to w=1.6 --camera 30,16,8 --width 400 \
-         --height 225",
+        (400, 225),
+        "--at 3 --speed 0 --seconds 4 --frame-rate 10 --slice w=-1.6 --slice-to w=1.6 --camera 30,16,8",
     ),
     (
         "turning.gif",
         "dice4d",
-        "--at 3 --speed 0 --seconds 6 --frame-rate 8 --turn-to xw=360 --camera 30,16,8 --width 400 --height 225 --no-strip",
+        (400, 225),
+        "--at 3 --speed 0 --seconds 6 --frame-rate 8 --turn-to xw=360 --camera 30,16,8 --no-strip",
     ),
 ];
 
@@ -82,25 +86,27 @@ const MOMENTS: [(&str, &str); 15] = [
     ("balls6d", "--at 1.5"),
 ];
 
-/// How every picture of the gallery page is drawn.
-const GALLERY_OPTIONS: &str = "--width 480 --height 270 --no-caption";
+/// Size of the pictures of the gallery page.
+const GALLERY_SIZE: (u32, u32) = (480, 270);
 
-/// A picture of bodies before the first step: it changes with the look of pictures, and with nothing else.
-const LOOK: &str = "render dice4d --at 0 --width 96 --height 54 --threads 1";
+/// How every picture of the gallery page is drawn.
+const GALLERY_OPTIONS: &str = "--no-caption";
+
+/// Pixels across of the small pictures of the check.
+const CHECKED_WIDTH: u32 = 96;
 
 pub(crate) fn run(arguments: &PicturesArguments) -> Outcome {
     if arguments.check {
         return check();
     }
-    let program = build_hyperbody(true)?;
-    let now = Inputs::new(&program)?;
+    let studio = Studio::new()?;
     let mut remembered = read_inputs();
     let is_wanted = |picture: &Picture| {
         let stem = Path::new(&picture.file).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
         arguments.names.is_empty()
             || arguments.names.iter().any(|name| *name == picture.file || *name == stem || *name == picture.scene)
     };
-    let wanted: Vec<&Picture> = now.pictures.iter().filter(|picture| is_wanted(picture)).collect();
+    let wanted: Vec<&Picture> = studio.pictures.iter().filter(|picture| is_wanted(picture)).collect();
     if wanted.is_empty() {
         return Err(format!("there is no picture of {}", arguments.names.join(" or ")));
     }
@@ -108,89 +114,116 @@ pub(crate) fn run(arguments: &PicturesArguments) -> Outcome {
     std::fs::create_dir_all(&gallery).map_err(|error| format!("cannot make {}: {error}", gallery.display()))?;
     for picture in &wanted {
         let file = format!("{FOLDER}/{}", picture.file);
-        let mut line = vec!["render", &picture.scene, "--output", &file];
-        line.extend(picture.options.iter().map(String::as_str));
-        println!("    hyperbody {}", line.join(" "));
-        run_command(Command::new(&program).current_dir(root()).args(line))?;
-        remembered.insert(picture.file.clone(), now.of(picture)?);
+        println!("    hyperbody {}", studio.line(picture, picture.size, &file).join(" "));
+        studio.draw(picture, picture.size, &file)?;
+        remembered.insert(picture.file.clone(), studio.inputs(picture)?);
     }
-    remembered.retain(|file, _| now.pictures.iter().any(|picture| picture.file == *file));
+    remembered.retain(|file, _| studio.pictures.iter().any(|picture| picture.file == *file));
     let text = serde_json::to_string_pretty(&remembered).map_err(|error| error.to_string())? + "\n";
     std::fs::write(root().join(INPUTS), text).map_err(|error| format!("cannot write {INPUTS}: {error}"))?;
     scenes::write()?;
-    println!("{} pictures drawn; {} kB in {FOLDER}", wanted.len(), total_bytes(&now.pictures) / 1000);
-    check()
+    println!("{} pictures drawn; {} kB in {FOLDER}", wanted.len(), total_bytes(&studio.pictures) / 1000);
+    Ok(())
 }
 
-/// Whether every picture is there and was drawn from what is there now.
+/// Whether every picture is there and is what would be drawn now.
 pub(crate) fn check() -> Outcome {
-    let now = Inputs::new(&build_hyperbody(true)?)?;
+    let studio = Studio::new()?;
     let remembered = read_inputs();
-    let mut stale: Vec<&str> = Vec::new();
-    for picture in &now.pictures {
-        let is_there = root().join(FOLDER).join(&picture.file).is_file();
-        if !is_there || remembered.get(&picture.file) != Some(&now.of(picture)?) {
-            stale.push(&picture.file);
+    let mut stale: Vec<String> = Vec::new();
+    for picture in &studio.pictures {
+        let then = remembered.get(&picture.file).cloned().unwrap_or_default();
+        let changed = match studio.inputs(picture) {
+            Ok(now) => REASONS.iter().find(|(key, _)| now[*key] != then[*key]).map(|(_, reason)| *reason),
+            Err(_) if !root().join(FOLDER).join(&picture.file).is_file() => Some("is not there"),
+            Err(message) => return Err(message),
+        };
+        if let Some(reason) = changed {
+            let name = picture.file.rsplit('/').next().and_then(|name| name.split('.').next()).unwrap_or_default();
+            println!("    {}: {reason}", picture.file);
+            stale.push(name.to_owned());
         }
     }
     if !stale.is_empty() {
-        let names: Vec<&str> = stale
-            .iter()
-            .map(|file| file.rsplit('/').next().unwrap_or(file).split('.').next().unwrap_or(file))
-            .collect();
-        return Err(format!("pictures are out of date; `cargo xtask pictures {}` draws them", names.join(" ")));
+        return Err(format!("pictures are out of date; `cargo xtask pictures {}` draws them", stale.join(" ")));
     }
-    let bytes = total_bytes(&now.pictures);
+    let bytes = total_bytes(&studio.pictures);
     if bytes > MAX_BYTES {
         return Err(format!("the pictures in {FOLDER} take {bytes} bytes; make them smaller, to {MAX_BYTES} at most"));
     }
     Ok(())
 }
 
-/// What pictures are drawn from now.
-struct Inputs {
+/// What is remembered of a picture, and what it means that it differs.
+const REASONS: [(&str, &str); 4] = [
+    ("line", "is drawn by another command now"),
+    ("state", "the bodies are elsewhere now: the scene or the solver has changed"),
+    ("look", "the same bodies look otherwise now: colours, the renderer or an encoder has changed"),
+    ("file", "is another file than the one that was drawn"),
+];
+
+/// The program, and what it has to draw.
+struct Studio {
+    program: PathBuf,
     pictures: Vec<Picture>,
-    /// Hash of each scene by name.
-    scenes: BTreeMap<String, u64>,
-    /// Hash of the picture that shows the look.
-    look: u64,
+    /// Where the small pictures of the check go.
+    folder: PathBuf,
 }
 
-impl Inputs {
-    fn new(program: &Path) -> Outcome<Self> {
-        let folder = target_directory()?.join("pictures-check");
-        let text = |path: &Path| path.to_str().map(str::to_owned).ok_or("the target folder has a name beyond UTF-8");
-        read(Command::new(program).args(["scenes", "--force", "--write", &text(&folder)?]))?;
-        let mut scenes = BTreeMap::new();
-        for name in scene_names(program)? {
-            scenes.insert(name.clone(), hash(&read_bytes(&folder.join(format!("{name}.json")))?));
-        }
-        let look = folder.join("look.png");
-        read(Command::new(program).args(LOOK.split(' ')).args(["--output", &text(&look)?]))?;
+impl Studio {
+    fn new() -> Outcome<Self> {
+        let program = build_hyperbody(true)?;
         let words = |options: &str| options.split_whitespace().map(str::to_owned).collect::<Vec<String>>();
         let mut pictures: Vec<Picture> = SHOWN
             .iter()
-            .map(|&(file, scene, options)| Picture {
+            .map(|&(file, scene, size, options)| Picture {
                 file: file.to_owned(),
                 scene: scene.to_owned(),
+                size,
                 options: words(options),
             })
             .collect();
-        for name in scenes.keys() {
-            let moment = MOMENTS.iter().find(|(scene, _)| scene == name).map_or("", |(_, moment)| moment);
+        for name in scene_names(&program)? {
+            let moment = MOMENTS.iter().find(|(scene, _)| *scene == name).map_or("", |(_, moment)| moment);
             let options = words(&format!("{GALLERY_OPTIONS} {moment}"));
-            pictures.push(Picture { file: format!("gallery/{name}.png"), scene: name.clone(), options });
+            pictures.push(Picture { file: format!("gallery/{name}.png"), scene: name, size: GALLERY_SIZE, options });
         }
-        Ok(Self { pictures, scenes, look: hash(&read_bytes(&look)?) })
+        let folder = target_directory()?.join("pictures-check");
+        std::fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+        Ok(Self { program, pictures, folder })
     }
 
-    /// What is remembered of a picture.
-    fn of(&self, picture: &Picture) -> Outcome<Value> {
-        let scene = self.scenes.get(&picture.scene).ok_or_else(|| format!("there is no scene {}", picture.scene))?;
+    /// The arguments that draw a picture.
+    fn line(&self, picture: &Picture, (width, height): (u32, u32), file: &str) -> Vec<String> {
+        let mut line: Vec<String> = ["render", &picture.scene, "--output", file].map(str::to_owned).into();
+        line.extend(["--width".to_owned(), width.to_string(), "--height".to_owned(), height.to_string()]);
+        line.extend(picture.options.iter().cloned());
+        line
+    }
+
+    /// Draws a picture, and gives what the program says of it.
+    fn draw(&self, picture: &Picture, size: (u32, u32), file: &str) -> Outcome<Value> {
+        let mut command = Command::new(&self.program);
+        command.current_dir(root()).args(self.line(picture, size, file)).arg("--json");
+        let text = read(&mut command)?;
+        serde_json::from_str(&text).map_err(|error| format!("`hyperbody render --json` printed no JSON: {error}"))
+    }
+
+    /// What there is to remember of a picture, whose file has to be there.
+    fn inputs(&self, picture: &Picture) -> Outcome<Value> {
+        let file = hash(&read_bytes(&root().join(FOLDER).join(&picture.file))?);
+        let (width, height) = picture.size;
+        let line = format!("{} {width}x{height} {}", picture.scene, picture.options.join(" "));
+        let small = self.folder.join(picture.file.replace('/', "-"));
+        let path = small.to_str().ok_or("the target folder has a name beyond UTF-8")?;
+        let size = (CHECKED_WIDTH, (CHECKED_WIDTH * height / width).max(16));
+        let said = self.draw(picture, size, path)?;
+        let look = hash(&read_bytes(&small)?);
         Ok(json!({
-            "line": format!("{} {}", picture.scene, picture.options.join(" ")),
-            "scene": format!("{scene:016x}"),
-            "look": format!("{:016x}", self.look),
+            "line": line,
+            "state": said["hash"],
+            "look": format!("{look:016x}"),
+            "file": format!("{file:016x}"),
         }))
     }
 }

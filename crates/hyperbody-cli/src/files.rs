@@ -1,11 +1,37 @@
-//! Files that commands write: checked before the work, written aside and renamed after it.
+//! Files that commands write: checked before the work, written aside and renamed after it, and removed if the program is told
+//! to stop before.
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, Once, PoisonError};
 
 use crate::failure::Failure;
+
+/// Files in the making.
+static DRAFTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Exit status of a program that was stopped from the keyboard: 128 and the number of the signal.
+const STOPPED: i32 = 130;
+
+/// Removes a file in the making as soon as the program is told to stop. Where that cannot be arranged it stays, under a name
+/// that says what it is.
+fn remove_when_stopped(draft: &Path) {
+    static LISTENING: Once = Once::new();
+    LISTENING.call_once(|| {
+        let _ = ctrlc::set_handler(|| {
+            // Held until the end, so that no other thread gives a file its name now.
+            let drafts = DRAFTS.lock().unwrap_or_else(PoisonError::into_inner);
+            for draft in drafts.iter() {
+                let _ = fs::remove_file(draft);
+            }
+            std::process::exit(STOPPED);
+        });
+    });
+    DRAFTS.lock().unwrap_or_else(PoisonError::into_inner).insert(draft.to_path_buf());
+}
 
 /// A file that can be written, as far as can be told beforehand.
 #[derive(Clone, Debug)]
@@ -75,12 +101,20 @@ impl Target {
     /// Opens the file for writing piece by piece.
     pub(crate) fn open(&self) -> Result<Aside<'_>, Failure> {
         let path = self.draft();
+        self.begin();
         let file = if self.is_special() { File::options().write(true).open(&path) } else { File::create(&path) };
         let file = file.map_err(|error| self.unwritable(&error))?;
         Ok(Aside { target: self, writer: BufWriter::new(file), finished: false })
     }
 
-    /// Where a program that writes the file itself has to write it; [`Target::publish`] or [`Target::discard`] comes after it.
+    /// Has what is written aside removed if the program is told to stop; [`Target::publish`] or [`Target::discard`] ends that.
+    pub(crate) fn begin(&self) {
+        if !self.is_special() {
+            remove_when_stopped(&self.aside());
+        }
+    }
+
+    /// Where a program that writes the file itself has to write it, after [`Target::begin`].
     pub(crate) fn draft(&self) -> PathBuf {
         if self.is_special() { self.path.clone() } else { self.aside() }
     }
@@ -90,7 +124,12 @@ impl Target {
         if self.is_special() {
             return Ok(());
         }
-        fs::rename(self.aside(), &self.path).map_err(|error| {
+        let renamed = {
+            let mut drafts = DRAFTS.lock().unwrap_or_else(PoisonError::into_inner);
+            drafts.remove(&self.aside());
+            fs::rename(self.aside(), &self.path)
+        };
+        renamed.map_err(|error| {
             self.discard();
             self.unwritable(&error)
         })
@@ -99,6 +138,7 @@ impl Target {
     /// Removes what was written aside.
     pub(crate) fn discard(&self) {
         if !self.is_special() {
+            DRAFTS.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.aside());
             // There is an error to report already, or nothing was written.
             let _ = fs::remove_file(self.aside());
         }

@@ -4,6 +4,7 @@ pub(crate) mod arguments;
 mod film;
 mod mp4;
 mod plan;
+mod report;
 mod sheet;
 mod timeline;
 mod view;
@@ -11,10 +12,12 @@ mod view;
 use hyperbody_render::RenderError;
 
 use crate::failure::Failure;
+use crate::output::print_json;
 use arguments::RenderArguments;
 use plan::{Plan, Work};
+use report::Report;
 use timeline::Timeline;
-use view::View;
+use view::{Drawing, Sight, View};
 
 impl From<RenderError> for Failure {
     fn from(error: RenderError) -> Self {
@@ -26,18 +29,25 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let plan = Plan::new(arguments)?;
     let mut timeline = Timeline::open(&arguments.scene, arguments.threads)?;
     let view = View::new(arguments, timeline.dimension(), plan.size)?;
-    match &plan.work {
-        Work::Still { at } => {
-            let moment = timeline.moment(at.unwrap_or_else(|| timeline.up_to(DEFAULT_MOMENT)))?;
-            let sights = [(moment, view.slice(0.0))];
-            let camera = view.camera(&timeline, &sights)?;
-            let mut bytes = Vec::new();
-            view.picture(&timeline, &sights[0].0, 0.0, &camera)?.write_png(&mut bytes)?;
-            plan.target.write(&bytes)
-        }
-        Work::Sheet(sheet) => sheet::write(sheet, &plan, &view, &mut timeline),
-        Work::Film(film) => film::write(film, &plan, &view, &mut timeline),
+    let report = match &plan.work {
+        Work::Still { at } => still(*at, &plan, &view, &mut timeline)?,
+        Work::Sheet(sheet) => sheet::write(sheet, &plan, &view, &mut timeline)?,
+        Work::Film(film) => film::write(film, &plan, &view, &mut timeline)?,
+    };
+    if arguments.json { print_json(&report) } else { Ok(()) }
+}
+
+/// One picture.
+fn still(at: Option<f64>, plan: &Plan, view: &View<'_>, timeline: &mut Timeline) -> Result<Report, Failure> {
+    let at = at.unwrap_or_else(|| timeline.up_to(DEFAULT_MOMENT));
+    let sights: Vec<Sight> = timeline.moments(&[at])?.into_iter().map(|frame| (frame, view.slice(0.0))).collect();
+    let camera = view.camera(timeline, &sights)?;
+    let mut bytes = Vec::new();
+    for (frame, _) in &sights {
+        Drawing::new(view, 1).picture(view, timeline, frame, 0.0, &camera)?.write_png(&mut bytes)?;
     }
+    plan.target.write(&bytes)?;
+    Ok(Report::new(timeline, &camera, &[at]).of(&plan.target, plan.size))
 }
 
 /// The moment of a picture if none is said, s: by then something has happened.

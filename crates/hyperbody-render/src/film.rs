@@ -4,6 +4,7 @@ use std::io::Write;
 
 use crate::error::RenderError;
 use crate::image::Image;
+use crate::palette::{self, Palette};
 
 /// How a film is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +20,8 @@ pub struct Film<W: Write> {
     encoder: Encoder<W>,
     width: u32,
     height: u32,
-    /// The picture before, of which a GIF keeps what has not changed.
-    last: Vec<u8>,
+    /// What a GIF shows so far; it keeps what has not changed.
+    shown: Vec<[u8; 3]>,
 }
 
 enum Encoder<W: Write> {
@@ -39,8 +40,9 @@ pub const FRAME_RATES: std::ops::RangeInclusive<u16> = 1..=60;
 /// Most pictures per second of a GIF: it counts in hundredths of a second, and players slow down below two.
 pub const MAX_GIF_RATE: u16 = 50;
 
-/// How much the colours of a GIF are searched for, 1 (most) to 30.
-const SEARCH: i32 = 10;
+/// Squared distance, as the eye weighs it, up to which a pixel of a GIF keeps the colour that it shows: two levels of each
+/// component. What changes less often flickers less, and packs better.
+const UNSEEN_SQ: f32 = 9.0 * 2.0 * 2.0;
 
 /// When picture `number` begins, in hundredths of a second to the nearest: rounding every delay alike would make films of most
 /// rates too slow or too fast.
@@ -97,7 +99,7 @@ impl<W: Write> Film<W> {
                 Encoder::Apng(Box::new(encoder.write_header()?))
             }
         };
-        Ok(Self { encoder, width, height, last: Vec::new() })
+        Ok(Self { encoder, width, height, shown: Vec::new() })
     }
 
     /// Adds the next picture.
@@ -116,13 +118,10 @@ impl<W: Write> Film<W> {
         }
         match &mut self.encoder {
             Encoder::Gif { encoder, frames_per_second, number } => {
-                let changed = Changed::between(&self.last, image);
-                let mut frame = changed.frame(image, &self.last);
+                let mut frame = next_frame(&mut self.shown, image);
                 frame.delay = centiseconds(*number + 1, *frames_per_second) - centiseconds(*number, *frames_per_second);
                 *number = (*number + 1) % *frames_per_second;
                 encoder.write_frame(&frame)?;
-                self.last.clear();
-                self.last.extend(image.bytes());
             }
             Encoder::Apng(writer) => writer.write_image_data(image.bytes())?,
         }
@@ -144,99 +143,47 @@ impl<W: Write> Film<W> {
     }
 }
 
-/// The rectangle of a picture that differs from the one before.
-struct Changed {
-    left: usize,
-    top: usize,
-    width: usize,
-    height: usize,
-}
-
-impl Changed {
-    /// All of it if there was none before; one pixel if nothing differs, because a GIF has no smaller picture.
-    fn between(last: &[u8], image: &Image) -> Self {
-        let width = image.width() as usize;
-        if last.is_empty() {
-            return Self { left: 0, top: 0, width, height: image.height() as usize };
-        }
-        let (mut left, mut right, mut top, mut bottom) = (usize::MAX, 0, usize::MAX, 0);
-        for (index, (old, new)) in last.chunks_exact(3).zip(image.bytes().chunks_exact(3)).enumerate() {
-            if old != new {
-                (left, right) = (left.min(index % width), right.max(index % width));
-                (top, bottom) = (top.min(index / width), bottom.max(index / width));
-            }
-        }
-        if left > right {
-            return Self { left: 0, top: 0, width: 1, height: 1 };
-        }
-        Self { left, top, width: right - left + 1, height: bottom - top + 1 }
+/// What has to be drawn over what is shown so that the picture is seen: the rectangle that changes, transparent where the
+/// right colour is shown already. Long runs of one colour pack well, and all colours go to what moves.
+fn next_frame(shown: &mut Vec<[u8; 3]>, image: &Image) -> gif::Frame<'static> {
+    let width = image.width() as usize;
+    let pixels = image.bytes().as_chunks::<3>().0;
+    let is_first = shown.len() != pixels.len();
+    let is_right = |index: usize| !is_first && is_like(shown[index], pixels[index]);
+    let changed: Vec<usize> = (0..pixels.len()).filter(|&index| !is_right(index)).collect();
+    let palette = Palette::of(&changed.iter().map(|&index| pixels[index]).collect::<Vec<_>>());
+    shown.resize(pixels.len(), [0; 3]);
+    // One pixel if nothing differs, because a GIF has no smaller picture.
+    let columns = || changed.iter().map(|index| index % width);
+    let (left, right) = (columns().min().unwrap_or(0), columns().max().unwrap_or(0));
+    let (top, bottom) = (changed.first().map_or(0, |first| first / width), changed.last().map_or(0, |last| last / width));
+    let transparent = palette.colours.len() as u8;
+    let frame_width = right - left + 1;
+    let mut buffer = vec![transparent; frame_width * (bottom - top + 1)];
+    for index in changed {
+        let colour = palette.index(pixels[index]);
+        shown[index] = palette.colours[usize::from(colour)];
+        buffer[(index / width - top) * frame_width + index % width - left] = colour;
     }
-
-    /// The rectangle, transparent where the picture before shows the same: long runs of one colour pack well, and all
-    /// colours go to what moves.
-    fn frame(&self, image: &Image, last: &[u8]) -> gif::Frame<'static> {
-        let mut moved = Vec::with_capacity(3 * self.width * self.height);
-        let mut is_moved = Vec::with_capacity(self.width * self.height);
-        for y in self.top..self.top + self.height {
-            let start = 3 * (y * image.width() as usize + self.left);
-            for place in (start..start + 3 * self.width).step_by(3) {
-                let new = &image.bytes()[place..place + 3];
-                let differs = last.get(place..place + 3) != Some(new);
-                is_moved.push(differs);
-                if differs {
-                    moved.extend(new);
-                }
-            }
-        }
-        // Sides fit, as the whole picture does.
-        let (width, height) = (self.width as u16, self.height as u16);
-        let (palette, indices, transparent) = palette_of(&moved, self.width);
-        let mut indices = indices.into_iter();
-        let buffer: Vec<u8> =
-            is_moved.iter().map(|&moved| if moved { indices.next() } else { None }.unwrap_or(transparent)).collect();
-        gif::Frame {
-            left: self.left as u16,
-            top: self.top as u16,
-            width,
-            height,
-            dispose: gif::DisposalMethod::Keep,
-            transparent: Some(transparent),
-            palette: Some(palette),
-            buffer: buffer.into(),
-            ..gif::Frame::default()
-        }
+    let mut colours = palette.colours.into_flattened();
+    colours.extend([0; 3]);
+    // Sides fit, as the whole picture does.
+    gif::Frame {
+        left: left as u16,
+        top: top as u16,
+        width: frame_width as u16,
+        height: (bottom - top + 1) as u16,
+        dispose: gif::DisposalMethod::Keep,
+        transparent: Some(transparent),
+        palette: Some(colours),
+        buffer: buffer.into(),
+        ..gif::Frame::default()
     }
 }
 
-/// Colours for pixels of red, green and blue, the index of each pixel among them, and an index that no pixel has. The search
-/// for colours wants a picture: the pixels are set in rows of `width`, the last one repeated.
-fn palette_of(pixels: &[u8], width: usize) -> (Vec<u8>, Vec<u8>, u8) {
-    let count = pixels.len() / 3;
-    if count == 0 {
-        return (vec![0; 3], Vec::new(), 0);
-    }
-    let mut rows = pixels.to_vec();
-    while !rows.len().is_multiple_of(3 * width) {
-        rows.extend_from_within(rows.len() - 3..);
-    }
-    let frame = gif::Frame::from_rgb_speed(width as u16, (rows.len() / (3 * width)) as u16, &rows, SEARCH);
-    let (mut palette, mut indices) = (frame.palette.unwrap_or_default(), frame.buffer.into_owned());
-    indices.truncate(count);
-    if palette.len() / 3 < 256 {
-        let free = (palette.len() / 3) as u8;
-        palette.extend([0; 3]);
-        return (palette, indices, free);
-    }
-    // All 256 are taken: the two that are most alike become one.
-    let colour = |index: usize| [0, 1, 2].map(|part| i32::from(palette[3 * index + part]));
-    let apart =
-        |a: usize, b: usize| -> i32 { colour(a).into_iter().zip(colour(b)).map(|(a, b)| (a - b) * (a - b)).sum() };
-    let pairs = (0..256).flat_map(|b| (0..b).map(move |a| (a, b)));
-    let (kept, freed) = pairs.min_by_key(|&(a, b)| apart(a, b)).unwrap_or((0, 255));
-    for index in indices.iter_mut().filter(|index| usize::from(**index) == freed) {
-        *index = kept as u8;
-    }
-    (palette, indices, freed as u8)
+/// Whether nobody sees the difference.
+fn is_like(a: [u8; 3], b: [u8; 3]) -> bool {
+    palette::distance_sq(a.map(f32::from), b.map(f32::from)) <= UNSEEN_SQ
 }
 
 #[cfg(test)]
@@ -256,17 +203,34 @@ mod tests {
         for x in 10..20 {
             second.blend(x, 12, [250, 20, 30], 1.0);
         }
-        let changed = Changed::between(first.bytes(), &second);
-        assert_eq!((changed.left, changed.top, changed.width, changed.height), (10, 12, 10, 1));
-        let frame = changed.frame(&second, first.bytes());
+        let mut shown = Vec::new();
+        let frame = next_frame(&mut shown, &first);
+        assert_eq!((frame.left, frame.top, frame.width, frame.height), (0, 0, 40, 30));
+        assert!(frame.buffer.iter().all(|&index| Some(index) != frame.transparent), "every pixel is drawn once");
+        // What is shown from now on is right, wherever it is.
+        shown = first.bytes().as_chunks::<3>().0.to_vec();
+        let frame = next_frame(&mut shown, &second);
+        assert_eq!((frame.left, frame.top, frame.width, frame.height), (10, 12, 10, 1));
         let palette = frame.palette.unwrap();
         for &index in frame.buffer.iter() {
             assert_ne!(Some(index), frame.transparent, "every pixel of the rectangle changed");
             assert_eq!(&palette[3 * usize::from(index)..3 * usize::from(index) + 3], &[250, 20, 30]);
         }
-        let same = Changed::between(first.bytes(), &first);
-        let frame = same.frame(&first, first.bytes());
+        assert_eq!(shown, second.bytes().as_chunks::<3>().0);
+        let frame = next_frame(&mut shown, &second);
         assert_eq!((frame.width, frame.height, frame.buffer[0]), (1, 1, frame.transparent.unwrap()));
+        assert_eq!(shown, second.bytes().as_chunks::<3>().0, "nothing differs");
+    }
+
+    /// What fades slowly is not left behind by changes that are too small to be seen one by one.
+    #[test]
+    fn errors_of_a_gif_do_not_add_up() {
+        let mut shown = Vec::new();
+        for grey in 0..=255_u8 {
+            let image = Image::new(20, 16, vec![grey; 3 * 20 * 16]);
+            next_frame(&mut shown, &image);
+            assert!(shown.iter().all(|&pixel| is_like(pixel, [grey; 3])), "{grey} is shown as {:?}", shown[0]);
+        }
     }
 
     #[test]
@@ -283,9 +247,9 @@ mod tests {
 
     #[test]
     fn an_index_is_free_where_all_colours_are_taken() {
-        let image = picture(7);
-        let (palette, indices, free) = palette_of(image.bytes(), 40);
-        assert_eq!((palette.len(), indices.len()), (3 * 256, 40 * 30));
-        assert!(indices.iter().all(|&index| index != free));
+        let frame = next_frame(&mut Vec::new(), &picture(7));
+        let transparent = frame.transparent.unwrap();
+        assert_eq!(frame.palette.unwrap().len(), 3 * (usize::from(transparent) + 1));
+        assert!(frame.buffer.iter().all(|&index| index < transparent));
     }
 }

@@ -1,29 +1,49 @@
 //! The picture itself: look, light, smooth, and look again where a pixel holds more than one thing.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use crate::camera::Lens;
 use crate::colour::{Encoder, Rgb};
 use crate::image::Image;
 use crate::light::Light;
-use crate::occlusion::{self, Reach};
+use crate::occlusion::{self, Blockers, LightRays, Reach};
 use crate::stage::Stage;
-use crate::surface::{SKY, Scratch, Seen};
+use crate::surface::{NO_SOLID, SKY, Scratch, Seen};
 
 /// What a frame is made of.
 pub(crate) struct Frame<'a, const N: usize> {
     pub(crate) stage: &'a Stage<N>,
     pub(crate) lens: Lens,
     pub(crate) light: Light,
+    /// Rays for light: those of every pixel, and those of samples that no pixel nearby speaks for.
+    pub(crate) rays: [LightRays; 2],
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// Rays to the sun, and as many to the sky, per pixel.
-    pub(crate) light_rays: u32,
+    /// Rows that are worked on together.
+    pub(crate) rows_at_once: usize,
     /// Samples of a pixel at an edge.
     pub(crate) edge_samples: u32,
     pub(crate) ghosts: bool,
-    /// Told the number of rows done, of three times the height.
+    /// Told the number of rows done, of four times the height.
     pub(crate) progress: &'a (dyn Fn(u64) + Sync),
+}
+
+/// Most pixels that are worked on together: what is known of each takes some 150 bytes, and a picture of 8192 × 8192 pixels
+/// would take 10 GB at once.
+const PIXELS_AT_ONCE: usize = 2_000_000;
+
+/// Rows beyond its own that a band needs: the mean of the light reaches four rows down, from a neighbour of the pixel.
+const MARGIN: usize = occlusion::BLOCK + 1;
+
+/// Some rows of a picture, and all that is known of them and of the rows around.
+struct Band {
+    /// The first row that is known.
+    first: usize,
+    /// What is known of pixels, by rows.
+    seen: Vec<Seen>,
+    reach: Vec<Reach>,
 }
 
 /// Where a pixel is sampled when once is not enough: point `index` of `count` of the plastic-number sequence
@@ -34,49 +54,97 @@ fn subpixel(index: u32) -> (f64, f64) {
     (a - a.floor(), b - b.floor())
 }
 
+impl Band {
+    /// The place of a pixel of the picture.
+    fn index(&self, width: usize, x: usize, y: usize) -> usize {
+        (y - self.first) * width + x
+    }
+}
+
 impl<const N: usize> Frame<'_, N> {
+    /// Rows of so many pixels that may be worked on together.
+    pub(crate) fn rows_at_once(width: u32) -> usize {
+        (PIXELS_AT_ONCE / width as usize).max(8 * MARGIN)
+    }
+
     /// The finished picture. Every pixel depends on the stage alone, so threads cannot change it.
     pub(crate) fn image(&self) -> Image {
-        let width = self.width;
-        let mut seen = vec![Seen::default(); width * self.height];
-        self.rows(&mut seen, |x, y, scratch| self.sample(x as f64 + 0.5, y as f64 + 0.5, scratch));
-        let mut raw = vec![Reach::default(); seen.len()];
-        self.rows(&mut raw, |x, y, scratch| {
-            self.stage.reach(&seen[y * width + x], &self.light, (x, y), self.light_rays, &mut scratch.stack)
-        });
-        let mut bytes = vec![[0_u8; 3]; seen.len()];
+        let mut pixels = vec![[0_u8; 3]; self.width * self.height];
         let encoder = Encoder::new();
-        self.rows(&mut bytes, |x, y, scratch| {
-            let colour = if self.edge_samples > 1 && self.is_mixed(&seen, x, y) {
-                self.mixed(&seen, &raw, (x, y), scratch)
-            } else {
-                let reach = occlusion::smoothed(&seen, &raw, width, (x, y), self.stage.size);
-                self.shade(&seen[y * width + x], reach, x as f64 + 0.5, y as f64 + 0.5)
-            };
-            encoder.bytes(self.vignette(colour, x, y))
-        });
-        Image::new(self.width as u32, self.height as u32, bytes.into_iter().flatten().collect())
+        for (number, own) in pixels.chunks_mut(self.width * self.rows_at_once).enumerate() {
+            let start = number * self.rows_at_once;
+            let rows = start..start + own.len() / self.width;
+            let band = self.band(&rows);
+            self.rows(own, start, &rows, |y, row, scratch| {
+                for (x, pixel) in row.iter_mut().enumerate() {
+                    let at = band.index(self.width, x, y);
+                    let colour = if self.edge_samples > 1 && self.is_mixed(&band, x, y) {
+                        self.mixed(&band, (x, y), scratch)
+                    } else {
+                        self.shade(&band.seen[at], band.reach[at], x as f64 + 0.5, y as f64 + 0.5)
+                    };
+                    *pixel = encoder.bytes(self.vignette(colour, x, y));
+                }
+            });
+        }
+        Image::new(self.width as u32, self.height as u32, pixels.into_flattened())
     }
 
-    /// Fills every pixel, rows in parallel.
-    fn rows<T: Send>(&self, pixels: &mut [T], fill: impl Fn(usize, usize, &mut Scratch<N>) -> T + Sync) {
-        pixels.par_chunks_mut(self.width).enumerate().for_each_init(Scratch::default, |scratch, (y, row)| {
+    /// All that is known of some rows, and of those around.
+    fn band(&self, own: &Range<usize>) -> Band {
+        let (first, last) = (own.start.saturating_sub(MARGIN), (own.end + MARGIN).min(self.height));
+        let count = self.width * (last - first);
+        let mut seen = vec![Seen::default(); count];
+        self.rows(&mut seen, first, own, |y, row, scratch| {
+            let mut guess = NO_SOLID;
             for (x, pixel) in row.iter_mut().enumerate() {
-                *pixel = fill(x, y, scratch);
+                *pixel = self.sample(x as f64 + 0.5, y as f64 + 0.5, guess, scratch);
+                guess = pixel.solid;
             }
-            (self.progress)(1);
+        });
+        let mut raw = vec![Reach::default(); count];
+        self.rows(&mut raw, first, own, |y, row, scratch| {
+            let mut blockers = Blockers::default();
+            for (x, (pixel, seen)) in row.iter_mut().zip(&seen[(y - first) * self.width..]).enumerate() {
+                let memory = (&mut blockers, &mut scratch.stack);
+                *pixel = self.stage.reach(seen, &self.light, (x, y), &self.rays[0], memory);
+            }
+        });
+        let mut reach = vec![Reach::default(); count];
+        self.rows(&mut reach, first, own, |y, row, _| {
+            for (x, pixel) in row.iter_mut().enumerate() {
+                *pixel = occlusion::smoothed(&seen, &raw, self.width, (x, y - first), self.stage.size);
+            }
+        });
+        Band { first, seen, reach }
+    }
+
+    /// Fills the rows from `first` on in parallel, and tells of the band's own rows.
+    fn rows<T: Send>(
+        &self,
+        pixels: &mut [T],
+        first: usize,
+        own: &Range<usize>,
+        fill: impl Fn(usize, &mut [T], &mut Scratch<N>) + Sync,
+    ) {
+        pixels.par_chunks_mut(self.width).enumerate().for_each_init(Scratch::default, |scratch, (number, row)| {
+            let y = first + number;
+            fill(y, row, scratch);
+            if own.contains(&y) {
+                (self.progress)(1);
+            }
         });
     }
 
-    fn sample(&self, x: f64, y: f64, scratch: &mut Scratch<N>) -> Seen {
-        self.stage.look(&self.lens.ray(x, y), self.lens.pixel_angle, self.ghosts, scratch)
+    fn sample(&self, x: f64, y: f64, guess: u32, scratch: &mut Scratch<N>) -> Seen {
+        self.stage.look(&self.lens.ray(x, y), self.lens.pixel_angle, self.ghosts, guess, scratch)
     }
 
     /// Whether a pixel and its neighbours show different things.
-    fn is_mixed(&self, seen: &[Seen], x: usize, y: usize) -> bool {
-        let here = &seen[y * self.width + x];
+    fn is_mixed(&self, band: &Band, x: usize, y: usize) -> bool {
+        let here = &band.seen[band.index(self.width, x, y)];
         let differs = |x: usize, y: usize| {
-            let other = &seen[y * self.width + x];
+            let other = &band.seen[band.index(self.width, x, y)];
             other.key != here.key || (other.veil_cover - here.veil_cover).abs() > 0.04
         };
         (x > 0 && differs(x - 1, y))
@@ -86,22 +154,22 @@ impl<const N: usize> Frame<'_, N> {
     }
 
     /// The mean of several samples; each takes its light from a pixel nearby that shows the same surface, if there is one.
-    fn mixed(&self, seen: &[Seen], raw: &[Reach], (x, y): (usize, usize), scratch: &mut Scratch<N>) -> Rgb {
+    fn mixed(&self, band: &Band, (x, y): (usize, usize), scratch: &mut Scratch<N>) -> Rgb {
+        let here = &band.seen[band.index(self.width, x, y)];
         let mut sum = Rgb::BLACK;
         for index in 0..self.edge_samples {
             let (dx, dy) = subpixel(index);
             let (at_x, at_y) = (x as f64 + dx, y as f64 + dy);
-            let sample = self.sample(at_x, at_y, scratch);
+            // The first one is the middle of the pixel, which is known.
+            let sample = if index == 0 { *here } else { self.sample(at_x, at_y, here.solid, scratch) };
             let reach = if sample.key == SKY {
                 Reach { sun: 1.0, sky: 1.0 }
             } else {
-                match self.nearby(seen, sample.key, (x, y), (dx, dy)) {
-                    Some(at) => occlusion::smoothed(seen, raw, self.width, at, self.stage.size),
-                    None => {
-                        let rays = 2 * self.light_rays;
-                        self.stage.reach(&sample, &self.light, (x + index as usize, y), rays, &mut scratch.stack)
-                    }
-                }
+                self.nearby(band, sample.key, (x, y), (dx, dy)).unwrap_or_else(|| {
+                    let place = (x + index as usize, y);
+                    let memory = (&mut Blockers::default(), &mut scratch.stack);
+                    self.stage.reach(&sample, &self.light, place, &self.rays[1], memory)
+                })
             };
             // Bright samples would outshine the rest of an edge and leave steps.
             let colour = self.shade(&sample, reach, at_x, at_y);
@@ -111,22 +179,23 @@ impl<const N: usize> Frame<'_, N> {
         mean * (1.0 / (1.0 - 0.5 * mean.luminance()).max(0.05))
     }
 
-    /// The nearest of the nine pixels around that shows the surface.
-    fn nearby(&self, seen: &[Seen], key: u32, (x, y): (usize, usize), (dx, dy): (f64, f64)) -> Option<(usize, usize)> {
-        let mut best: Option<(f64, (usize, usize))> = None;
+    /// What reaches the nearest of the nine pixels around that shows the surface.
+    fn nearby(&self, band: &Band, key: u32, (x, y): (usize, usize), (dx, dy): (f64, f64)) -> Option<Reach> {
+        let mut best: Option<(f64, Reach)> = None;
         for row in y.saturating_sub(1)..(y + 2).min(self.height) {
             for column in x.saturating_sub(1)..(x + 2).min(self.width) {
-                if seen[row * self.width + column].key == key {
+                let at = band.index(self.width, column, row);
+                if band.seen[at].key == key {
                     let across = column as f64 + 0.5 - x as f64 - dx;
                     let down = row as f64 + 0.5 - y as f64 - dy;
                     let away = across * across + down * down;
                     if best.is_none_or(|(least, _)| away < least) {
-                        best = Some((away, (column, row)));
+                        best = Some((away, band.reach[at]));
                     }
                 }
             }
         }
-        best.map(|(_, at)| at)
+        best.map(|(_, reach)| reach)
     }
 
     /// The light that comes from a sample to the eye.

@@ -12,12 +12,6 @@ pub struct Image {
     bytes: Vec<u8>,
 }
 
-/// Pixels between the pictures of a sheet.
-const GAP: u32 = 4;
-
-/// Largest sheet, in bytes of its pixels.
-pub const MAX_SHEET_BYTES: u64 = 600_000_000;
-
 impl Image {
     pub(crate) fn new(width: u32, height: u32, bytes: Vec<u8>) -> Self {
         Self { width, height, bytes }
@@ -58,41 +52,6 @@ impl Image {
             let mixed = f32::from(*byte) + (f32::from(component) - f32::from(*byte)) * cover.clamp(0.0, 1.0);
             *byte = (mixed + 0.5) as u8;
         }
-    }
-
-    /// Pictures of one size beside each other, from the upper left, `columns` in a row, with a thin gap between them.
-    ///
-    /// # Errors
-    /// If there are none, their sizes differ, or the whole is larger than [`MAX_SHEET_BYTES`].
-    pub fn sheet(images: &[Self], columns: u32) -> Result<Self, RenderError> {
-        let Some(first) = images.first() else {
-            return Err(RenderError::new("a sheet has no pictures; give it one or more"));
-        };
-        if let Some(other) = images.iter().find(|image| (image.width, image.height) != (first.width, first.height)) {
-            return Err(RenderError::new(format!(
-                "a sheet holds pictures of one size; one is {} × {} pixels and another {} × {}",
-                first.width, first.height, other.width, other.height
-            )));
-        }
-        let columns = columns.clamp(1, images.len() as u32);
-        let rows = (images.len() as u32).div_ceil(columns);
-        let (across, down) = (first.width + GAP, first.height + GAP);
-        let (width, height) = (u64::from(columns * across - GAP), u64::from(rows * down - GAP));
-        if 3 * width * height > MAX_SHEET_BYTES {
-            return Err(RenderError::new(format!(
-                "a sheet of {width} × {height} pixels is larger than {} MB; make its pictures smaller or fewer",
-                MAX_SHEET_BYTES / 1_000_000
-            )));
-        }
-        let mut bytes = vec![255; 3 * (width * height) as usize];
-        for (index, image) in images.iter().enumerate() {
-            let (left, top) = (index as u32 % columns * across, index as u32 / columns * down);
-            for (row, line) in image.bytes.chunks_exact(3 * image.width as usize).enumerate() {
-                let start = 3 * ((top as usize + row) * width as usize + left as usize);
-                bytes[start..start + line.len()].copy_from_slice(line);
-            }
-        }
-        Ok(Self { width: width as u32, height: height as u32, bytes })
     }
 
     /// Writes the picture as PNG.

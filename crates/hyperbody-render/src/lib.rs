@@ -12,11 +12,13 @@
 //! | [`framing`] | [`frame_bodies`], [`frame_all`]: cameras that have everything in view |
 //! | [`picture`] | [`render`], [`Settings`] |
 //! | [`image`] | [`Image`]: the finished picture, and PNG |
+//! | [`sheet`] | [`Sheet`]: pictures beside each other |
 //! | [`film`] | [`Film`]: GIF and animated PNG |
 //! | `stage`, `solid` | the world cut by the slice: sections, ghosts, planes |
 //! | `surface` | what a ray sees: colours of cells, edges, floor, glass |
 //! | `light`, `occlusion`, `frame` | sun and sky, how much of them arrives, and the picture |
 //! | `colour` | palette and tone mapping |
+//! | `palette` | the few colours of a GIF |
 //! | `overlay`, `text` | the strip of hidden directions, and captions |
 
 pub mod bodies;
@@ -30,7 +32,9 @@ pub mod image;
 mod light;
 mod occlusion;
 mod overlay;
+mod palette;
 pub mod picture;
+pub mod sheet;
 pub mod slice;
 mod solid;
 mod stage;
@@ -44,4 +48,5 @@ pub use film::{Film, FilmFormat};
 pub use framing::{frame_all, frame_bodies};
 pub use image::Image;
 pub use picture::{Settings, render};
+pub use sheet::Sheet;
 pub use slice::Slice;

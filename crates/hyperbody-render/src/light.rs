@@ -87,11 +87,3 @@ pub(crate) fn disc([a, b]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = hyperbody::math::scalar::sin_cos(angle);
     [radius * cos, radius * sin]
 }
-
-/// A direction about a normal, dense as its cosine, by two numbers in [0, 1): a disc, projected up.
-#[inline]
-pub(crate) fn hemisphere(normal: Vector<3>, sample: [f64; 2]) -> Vector<3> {
-    let [x, y] = disc(sample);
-    let [first, second, _] = normal.orthonormal_complement();
-    first * x + second * y + normal * (1.0 - x * x - y * y).max(0.0).sqrt()
-}

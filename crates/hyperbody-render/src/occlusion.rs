@@ -6,9 +6,9 @@ use hyperbody::collision::RayStack;
 use hyperbody::collision::ray::Ray;
 use hyperbody::math::Vector;
 
-use crate::light::{Light, hemisphere};
+use crate::light::{Light, disc};
 use crate::stage::Stage;
-use crate::surface::{SKY, Seen};
+use crate::surface::{NO_SOLID, SKY, Seen};
 
 /// Shares of the sun and of the sky that reach a point, in [0, 1].
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,7 +18,7 @@ pub(crate) struct Reach {
 }
 
 /// Width and height of a block of the pattern.
-const BLOCK: usize = 4;
+pub(crate) const BLOCK: usize = 4;
 
 /// The place of each pixel of a block in the pattern; neighbours far apart (B. E. Bayer, 1973).
 const ORDER: [[u32; BLOCK]; BLOCK] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
@@ -33,44 +33,93 @@ fn pattern(index: u32, count: u32, shift: [f64; 2]) -> [f64; 2] {
     [first - first.floor(), second - second.floor()]
 }
 
+/// The directions of all rays of a block, which every block repeats.
+#[derive(Clone, Debug)]
+pub(crate) struct LightRays {
+    /// Rays to the sun, and as many to the sky, per pixel.
+    per_pixel: usize,
+    /// Towards points of the sun's disc, unit.
+    sun: Vec<Vector<3>>,
+    /// Directions about a normal, dense as its cosine: parts across it, and along it.
+    sky: Vec<[f64; 3]>,
+}
+
+impl LightRays {
+    pub(crate) fn new(light: &Light, per_pixel: u32) -> Self {
+        let count = per_pixel * (BLOCK * BLOCK) as u32;
+        let about = |[x, y]: [f64; 2]| [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()];
+        Self {
+            per_pixel: per_pixel as usize,
+            sun: (0..count).map(|index| light.toward_sun(pattern(index, count, [0.37, 0.21]))).collect(),
+            sky: (0..count).map(|index| about(disc(pattern(index, count, [0.0, 0.5])))).collect(),
+        }
+    }
+}
+
+/// What stood in the way of rays of light from the pixel before, which is likely to stand in the way again. It is forgotten
+/// at the beginning of a row: a picture depends on what was tried first only where rounding decides, and then rows must not
+/// depend on the thread that draws them.
+#[derive(Debug)]
+pub(crate) struct Blockers {
+    sun: u32,
+    /// By the numbers of a pixel's rays to the sky, which point alike in pixels that are neighbours.
+    sky: [u32; 4],
+}
+
+impl Default for Blockers {
+    fn default() -> Self {
+        Self { sun: NO_SOLID, sky: [NO_SOLID; 4] }
+    }
+}
+
 impl<const N: usize> Stage<N> {
-    /// What reaches the point of a sample, by `rays` rays to the sun and as many to the sky.
+    /// What reaches the point of a sample at a pixel.
     pub(crate) fn reach(
         &self,
         seen: &Seen,
         light: &Light,
         (x, y): (usize, usize),
-        rays: u32,
-        stack: &mut RayStack,
+        rays: &LightRays,
+        (blockers, stack): (&mut Blockers, &mut RayStack),
     ) -> Reach {
         if seen.key == SKY || seen.haze > 0.995 {
             return Reach { sun: 1.0, sky: 1.0 };
         }
         let origin = seen.point + seen.normal * (1e-4 * self.size + 1e-9 * seen.distance);
-        let place = ORDER[y % BLOCK][x % BLOCK];
-        let count = rays * (BLOCK * BLOCK) as u32;
-        let (mut sun, mut sky) = (0, 0);
-        let faces_sun = seen.normal.dot(light.sun) > -0.05;
-        for ray in 0..rays {
-            let index = place + ray * (BLOCK * BLOCK) as u32;
-            if faces_sun {
-                let toward = light.toward_sun(pattern(index, count, [0.37, 0.21]));
-                sun += u32::from(!self.is_dark(origin, toward, f64::INFINITY, stack));
+        let place = ORDER[y % BLOCK][x % BLOCK] as usize;
+        let indices = (0..rays.per_pixel).map(|ray| place + ray * BLOCK * BLOCK);
+        let mut sun = 0;
+        if seen.normal.dot(light.sun) > -0.05 {
+            for index in indices.clone() {
+                sun += u32::from(!self.is_dark(origin, rays.sun[index], f64::INFINITY, &mut blockers.sun, stack));
             }
-            let toward = hemisphere(seen.normal, pattern(index, count, [0.0, 0.5]));
-            sky += u32::from(!self.is_dark(origin, toward, SKY_REACH * self.size, stack));
         }
-        Reach { sun: sun as f32 / rays as f32, sky: sky as f32 / rays as f32 }
+        let [first, second, _] = seen.normal.orthonormal_complement();
+        let mut sky = 0;
+        for (number, [across, beside, along]) in indices.map(|index| rays.sky[index]).enumerate() {
+            let toward = first * across + second * beside + seen.normal * along;
+            let blocker = &mut blockers.sky[number % 4];
+            sky += u32::from(!self.is_dark(origin, toward, SKY_REACH * self.size, blocker, stack));
+        }
+        let count = rays.per_pixel as f32;
+        Reach { sun: sun as f32 / count, sky: sky as f32 / count }
     }
 
     /// Whether something stands in the way; walls, which are of glass, do not.
-    fn is_dark(&self, origin: Vector<3>, toward: Vector<3>, reach: f64, stack: &mut RayStack) -> bool {
+    fn is_dark(
+        &self,
+        origin: Vector<3>,
+        toward: Vector<3>,
+        reach: f64,
+        blocker: &mut u32,
+        stack: &mut RayStack,
+    ) -> bool {
         let floor = self.planes.iter().filter(|plane| plane.is_floor).any(|plane| {
             let height = plane.normal.dot(origin) - plane.offset;
             let closing = -plane.normal.dot(toward);
             height > 0.0 && closing > 0.0 && height < closing * reach
         });
-        floor || self.cut.blocks(&Ray::new(origin, toward).up_to(reach), stack)
+        floor || self.cut.blocks(&Ray::new(origin, toward).up_to(reach), blocker, stack)
     }
 }
 

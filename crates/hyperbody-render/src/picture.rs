@@ -9,6 +9,7 @@ use crate::frame::Frame;
 use crate::framing::frame_bodies;
 use crate::image::Image;
 use crate::light::Light;
+use crate::occlusion::LightRays;
 use crate::slice::Slice;
 use crate::stage::Stage;
 
@@ -48,15 +49,24 @@ impl Default for Settings {
     }
 }
 
+/// Least pixels across or down.
+pub const MIN_SIDE: u32 = 16;
+
 /// Most pixels across or down.
 pub const MAX_SIDE: u32 = 8192;
+
+/// How many parts of the work [`render`] tells of for a picture so many pixels high: every row is gone over four times.
+#[must_use]
+pub fn parts(height: u32) -> u64 {
+    4 * u64::from(height)
+}
 
 impl Settings {
     fn validate(&self) -> Result<(), RenderError> {
         for (name, value) in [("width", self.width), ("height", self.height)] {
-            if !(16..=MAX_SIDE).contains(&value) {
+            if !(MIN_SIDE..=MAX_SIDE).contains(&value) {
                 return Err(RenderError::new(format!(
-                    "the {name} is {value} pixels; it must lie between 16 and {MAX_SIDE}"
+                    "the {name} is {value} pixels; it must lie between {MIN_SIDE} and {MAX_SIDE}"
                 )));
             }
         }
@@ -73,7 +83,7 @@ impl Settings {
 }
 
 /// A picture of a slice of a world with these bodies. Without a camera, one is chosen by [`frame_bodies`]. `progress` is told
-/// that so many more rows are done, of three times the height.
+/// that so many more [`parts`] are done.
 ///
 /// # Errors
 /// If a setting is outside its range, the camera is not finite, or the threads cannot be started.
@@ -90,14 +100,16 @@ pub fn render<const N: usize>(
         .unwrap_or_else(|| frame_bodies(bodies, slice, f64::from(settings.width) / f64::from(settings.height)));
     check(&camera)?;
     let stage = Stage::new(bodies, slice);
-    let lens = Lens::new(&camera, settings.width, settings.height);
+    let light = Light::new(stage.up, camera.target - camera.eye);
     let frame = Frame {
         stage: &stage,
-        lens,
-        light: Light::new(stage.up, camera.target - camera.eye),
+        lens: Lens::new(&camera, settings.width, settings.height),
+        // Where a pixel's own light is not known, more rays make up for the missing mean.
+        rays: [settings.light_rays, 2 * settings.light_rays].map(|rays| LightRays::new(&light, rays)),
+        light,
         width: settings.width as usize,
         height: settings.height as usize,
-        light_rays: settings.light_rays,
+        rows_at_once: Frame::<N>::rows_at_once(settings.width),
         edge_samples: settings.edge_samples,
         ghosts: settings.ghosts,
         progress,

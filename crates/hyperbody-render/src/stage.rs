@@ -29,6 +29,15 @@ pub(crate) struct Stage<const N: usize> {
     pub(crate) spread: f64,
     /// Height of the highest floor along `up`, m; 0 without one.
     pub(crate) floor_height: f64,
+    pub(crate) tones: Tones,
+}
+
+/// Colours of what is no body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tones {
+    pub(crate) floor: Rgb,
+    pub(crate) lines: Rgb,
+    pub(crate) wall: Rgb,
 }
 
 /// Pieces and the tree of their sections' bounds.
@@ -53,6 +62,8 @@ pub(crate) struct Plane {
 pub(crate) struct BodyLook {
     pub(crate) kind: BodyKind,
     pub(crate) colour: Rgb,
+    /// As glass beside the slice: its tint tells the direction.
+    pub(crate) glass: Rgb,
     /// Whether the slice cuts it.
     pub(crate) is_cut: bool,
     /// The intervals that it takes up along the hidden directions; `None` for half-spaces.
@@ -89,12 +100,18 @@ impl<const N: usize> Solids<N> {
         self.solids.push(solid);
     }
 
-    /// The first surface that a ray meets from outside, by number and in the frame of the solid.
+    /// The first surface that a ray meets from outside, by number and in the frame of the solid. A solid that it may well
+    /// meet, by number, shortens the search.
     #[inline]
-    pub(crate) fn first_hit(&self, ray: &Ray<3>, stack: &mut RayStack) -> Option<(u32, RayHit<N>)> {
-        let mut first: Option<(u32, RayHit<N>)> = None;
-        self.tree.cast_ray(ray, stack, |index, reach| {
-            let Some(hit) = self.solids[index as usize].cast(ray, reach) else { return Some(reach) };
+    pub(crate) fn first_hit(&self, ray: &Ray<3>, guess: u32, stack: &mut RayStack) -> Option<(u32, RayHit<N>)> {
+        let guessed = self.solids.get(guess as usize).and_then(|solid| solid.cast(ray, ray.max_fraction));
+        let mut first = guessed.filter(|hit| !hit.inside).map(|hit| (guess, hit));
+        let ray = first.map_or(*ray, |(_, hit)| ray.up_to(hit.fraction));
+        self.tree.cast_ray(&ray, stack, |index, reach| {
+            if index == guess && first.is_some() {
+                return Some(reach);
+            }
+            let Some(hit) = self.solids[index as usize].cast(&ray, reach) else { return Some(reach) };
             if hit.inside {
                 return Some(reach);
             }
@@ -117,12 +134,20 @@ impl<const N: usize> Solids<N> {
         out.sort_unstable_by(|a, b| a.1.fraction.total_cmp(&b.1.fraction).then(a.0.cmp(&b.0)));
     }
 
-    /// Whether a ray meets anything.
+    /// Whether a ray meets anything. What stood in the way of the last ray is tried first, and what does now is noted.
     #[inline]
-    pub(crate) fn blocks(&self, ray: &Ray<3>, stack: &mut RayStack) -> bool {
+    pub(crate) fn blocks(&self, ray: &Ray<3>, blocker: &mut u32, stack: &mut RayStack) -> bool {
+        if let Some(solid) = self.solids.get(*blocker as usize)
+            && solid.cast(ray, ray.max_fraction).is_some()
+        {
+            return true;
+        }
         let mut blocked = false;
         self.tree.cast_ray(ray, stack, |index, reach| {
             blocked = self.solids[index as usize].cast(ray, reach).is_some();
+            if blocked {
+                *blocker = index;
+            }
             (!blocked).then_some(reach)
         });
         blocked
@@ -141,12 +166,18 @@ impl<const N: usize> Stage<N> {
             size: 1.0,
             spread: 1.0,
             floor_height: 0.0,
+            tones: Tones {
+                floor: Rgb::from_hex(0xCBC9C5),
+                lines: Rgb::from_hex(0x7C8798),
+                wall: Rgb::from_hex(0xBFD4EE),
+            },
         };
         let mut sizes = Vec::new();
         let mut numbers = [0_u32; 2];
         for body in &bodies.all {
             let number = &mut numbers[usize::from(body.kind == BodyKind::Dynamic)];
             let body_from_slice = body.pose.relative(slice.pose());
+            let middle: Vec<f64> = slice.coordinates(body.centre()).iter().collect();
             let mut look = BodyLook {
                 kind: body.kind,
                 colour: body.colour.map_or_else(
@@ -159,9 +190,10 @@ impl<const N: usize> Stage<N> {
                     },
                     Rgb::from_srgb,
                 ),
+                glass: colour::of_side(middle.get(3..).unwrap_or(&[])).mix(Rgb::WHITE, 0.12),
                 is_cut: false,
                 hidden_extents: None,
-                middle: slice.coordinates(body.centre()).iter().collect(),
+                middle,
                 radius: 0.0,
             };
             let mut is_solid = false;

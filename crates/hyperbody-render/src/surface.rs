@@ -6,7 +6,7 @@ use hyperbody::geometry::shape::Piece;
 use hyperbody::geometry::{Convex, Core};
 use hyperbody::math::Vector;
 
-use crate::colour::{self, Rgb};
+use crate::colour::Rgb;
 use crate::light::smooth;
 use crate::solid::Solid;
 use crate::stage::{GHOST_REACH, Plane, Stage};
@@ -16,6 +16,8 @@ use crate::stage::{GHOST_REACH, Plane, Stage};
 pub(crate) struct Seen {
     /// Equal for samples of one facet of one body: [`SKY`], [`FLOOR`], or a mix of the numbers of solid and facet.
     pub(crate) key: u32,
+    /// Number of the solid among those that the slice cuts, or [`NO_SOLID`]: a ray nearby may well meet it too.
+    pub(crate) solid: u32,
     pub(crate) distance: f64,
     pub(crate) point: Vector<3>,
     /// Of the surface.
@@ -31,6 +33,9 @@ pub(crate) struct Seen {
     pub(crate) veil: Rgb,
     pub(crate) veil_cover: f32,
 }
+
+/// Where no solid is seen.
+pub(crate) const NO_SOLID: u32 = u32::MAX;
 
 pub(crate) const SKY: u32 = 0;
 pub(crate) const FLOOR: u32 = 1;
@@ -53,12 +58,20 @@ struct Edge {
 const BEVEL: f64 = 0.045;
 
 impl<const N: usize> Stage<N> {
-    /// What a ray sees. `pixel_angle` is the width of a pixel at unit distance, for lines that are as wide as they are.
-    pub(crate) fn look(&self, ray: &Ray<3>, pixel_angle: f64, ghosts: bool, scratch: &mut Scratch<N>) -> Seen {
-        let hit = self.cut.first_hit(ray, &mut scratch.stack);
+    /// What a ray sees. `pixel_angle` is the width of a pixel at unit distance, for lines that are as wide as they are;
+    /// `guess` is a solid that it may meet, or [`NO_SOLID`].
+    pub(crate) fn look(
+        &self,
+        ray: &Ray<3>,
+        pixel_angle: f64,
+        ghosts: bool,
+        guess: u32,
+        scratch: &mut Scratch<N>,
+    ) -> Seen {
+        let hit = self.cut.first_hit(ray, guess, &mut scratch.stack);
         let mut seen = match &hit {
             Some((index, hit)) => self.body_surface(*index, hit, ray, pixel_angle),
-            None => Seen { key: SKY, distance: f64::INFINITY, haze: 1.0, ..Seen::default() },
+            None => Seen { key: SKY, solid: NO_SOLID, distance: f64::INFINITY, haze: 1.0, ..Seen::default() },
         };
         scratch.veils.clear();
         for plane in &self.planes {
@@ -91,9 +104,9 @@ impl<const N: usize> Stage<N> {
         let mut albedo = look.colour;
         if let (Some(facet), false) = (hit.facet, is_rounded(&solid.piece)) {
             albedo = tinted(albedo, facet, solid.part);
-            if let Some(edge) = edge(solid, facet, hit.point, normal) {
-                let width = (BEVEL * self.size) as f32;
-                let pixel = (distance * pixel_angle) as f32;
+            let width = (BEVEL * self.size) as f32;
+            let pixel = (distance * pixel_angle) as f32;
+            if let Some(edge) = edge(solid, facet, hit.point, normal, f64::from(width.max(pixel))) {
                 let away = edge.distance as f32;
                 // Where a bevel is narrower than a pixel, its share of the pixel is left.
                 let strength = (width / pixel).min(1.0);
@@ -106,7 +119,7 @@ impl<const N: usize> Stage<N> {
             + (index.wrapping_mul(0x9e37_79b1) ^ hit.facet.map_or(0, |facet| facet + 1).wrapping_mul(0x85eb_ca6b))
                 % 0xffff_fff0;
         let point = ray.at(distance);
-        Seen { key, distance, point, normal, bent_normal, albedo, gloss: 1.0, ..Seen::default() }
+        Seen { key, solid: index, distance, point, normal, bent_normal, albedo, gloss: 1.0, ..Seen::default() }
     }
 
     fn floor_surface(&self, plane: &Plane, ray: &Ray<3>, distance: f64, pixel_angle: f64) -> Seen {
@@ -117,11 +130,11 @@ impl<const N: usize> Stage<N> {
         let reach = 30.0 * self.size + 5.0 * self.spread;
         let far = (distance / reach).min(10.0);
         let lines = grid(plane, point, 0.012 * self.size.max(0.3), footprint / grazing.sqrt());
-        let base = Rgb::from_hex(0xCBC9C5);
-        let albedo = base.mix(Rgb::from_hex(0x7C8798), lines * 0.6);
+        let albedo = self.tones.floor.mix(self.tones.lines, lines * 0.6);
         let haze = 1.0 - hyperbody::math::scalar::exp(-far * far) as f32;
         Seen {
             key: FLOOR,
+            solid: NO_SOLID,
             distance,
             point,
             normal: plane.normal,
@@ -141,7 +154,7 @@ impl<const N: usize> Stage<N> {
         }
         let fade = (1.0 - height as f32) * (1.0 - height as f32);
         let lines = grid(plane, point, 0.012 * self.size.max(0.3), footprint);
-        (Rgb::from_hex(0xBFD4EE), fade * (0.05 + 0.4 * lines))
+        (self.tones.wall, fade * (0.05 + 0.4 * lines))
     }
 
     fn add_ghost_veils(&self, ray: &Ray<3>, before: f64, pixel_angle: f64, scratch: &mut Scratch<N>) {
@@ -155,16 +168,15 @@ impl<const N: usize> Stage<N> {
             let facing = (-normal.dot(ray.direction)).clamp(0.0, 1.0) as f32;
             let rim = (1.0 - facing) * (1.0 - facing);
             let mut cover = 0.07 + 0.4 * rim;
+            let pixel = (hit.fraction * pixel_angle) as f32;
+            let width = (0.018 * self.size) as f32;
             if let (Some(facet), false) = (hit.facet, is_rounded(&solid.piece))
-                && let Some(edge) = edge(solid, facet, hit.point, normal)
+                && let Some(edge) = edge(solid, facet, hit.point, normal, f64::from(width + 1.5 * pixel))
             {
-                let pixel = (hit.fraction * pixel_angle) as f32;
-                let width = (0.018 * self.size) as f32;
                 let line = 1.0 - smooth(width, width + 1.5 * pixel, edge.distance as f32);
                 cover = cover.max(0.75 * line * (width / pixel).min(1.0));
             }
-            let tint = colour::of_side(&look.middle[3.min(N)..]).mix(Rgb::WHITE, 0.12);
-            scratch.veils.push((hit.fraction, tint, cover * (fade.max(0.0) as f32)));
+            scratch.veils.push((hit.fraction, look.glass, cover * (fade.max(0.0) as f32)));
         }
         scratch.ghosts = hits;
     }
@@ -212,15 +224,28 @@ fn tinted(albedo: Rgb, facet: u32, part: u32) -> Rgb {
     (albedo * (1.0 + 0.34 * shade)).saturated(1.0 - 0.25 * shade)
 }
 
-/// The nearest edge of a facet's section: the facets beside it, each with its distance along the section.
-fn edge<const N: usize>(solid: &Solid<N>, facet: u32, local: Vector<N>, normal: Vector<3>) -> Option<Edge> {
+/// The nearest edge of a facet's section that is less than `within` away: the facets beside it, each with its distance along
+/// the section.
+fn edge<const N: usize>(
+    solid: &Solid<N>,
+    facet: u32,
+    local: Vector<N>,
+    normal: Vector<3>,
+    within: f64,
+) -> Option<Edge> {
     let mut nearest: Option<Edge> = None;
+    let mut least = within;
     let mut consider = |gap: f64, beside: Vector<N>| {
+        // Along the section it is as far as through the body, or farther.
+        if gap >= least {
+            return;
+        }
         let seen = solid.seen_normal(beside, -normal);
         let along = (seen - normal * normal.dot(seen)).norm();
         if along > 1e-6 {
             let distance = (gap / along).max(0.0);
-            if nearest.as_ref().is_none_or(|edge| distance < edge.distance) {
+            if distance < least {
+                least = distance;
                 nearest = Some(Edge { distance, normal_beyond: seen.normalize_or_zero() });
             }
         }

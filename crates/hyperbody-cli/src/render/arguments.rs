@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hyperbody::math::planes::AXIS_NAMES;
-use hyperbody_render::picture::MAX_SIDE;
+use hyperbody_render::picture::{MAX_SIDE, MIN_SIDE};
 
 use crate::arguments::seconds;
 
@@ -55,10 +55,10 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) columns: Option<u32>,
     /// Pixels across [default: 1280; 640 for films, 480 for each picture of a sheet]
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=i64::from(MAX_SIDE)))]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(i64::from(MIN_SIDE)..=i64::from(MAX_SIDE)))]
     pub(crate) width: Option<u32>,
     /// Pixels down [default: 9/16 of those across]
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=i64::from(MAX_SIDE)))]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(i64::from(MIN_SIDE)..=i64::from(MAX_SIDE)))]
     pub(crate) height: Option<u32>,
     /// A point that the slice goes through, by axes, in metres; axes left out are 0
     #[arg(long, value_name = "w=0.5,…", value_parser = assignments, allow_hyphen_values = true)]
@@ -96,6 +96,9 @@ pub(crate) struct RenderArguments {
     /// Threads to draw on [default: one per core]; changes the time only, never the picture
     #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
+    /// Print one JSON object that says what was drawn: moments, size, the camera that was chosen, the hash of the state
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Names with numbers.

@@ -1,14 +1,16 @@
-//! Films: pictures of a span, all by the camera that the first one chose.
+//! Films: pictures of a span, all by one camera.
 
 use hyperbody_render::{Film as Encoder, FilmFormat, Image};
 
+use hyperbody_scene::recording::Frame;
+
 use super::mp4::{self, Mp4};
 use super::plan::{Film, Format, Plan};
+use super::report::Report;
 use super::timeline::Timeline;
-use super::view::{Sight, View};
+use super::view::{Drawing, Sight, View};
 use crate::failure::Failure;
 use crate::files::{Aside, Target};
-use crate::progress::Progress;
 
 /// Most pictures of a film: three minutes at 20 a second.
 const MAX_FRAMES: f64 = 3600.0;
@@ -24,14 +26,14 @@ enum Output<'a, 'b> {
     Mp4(Mp4<'a>),
 }
 
-pub(super) fn write(film: &Film, plan: &Plan, view: &View<'_>, timeline: &mut Timeline) -> Result<(), Failure> {
+pub(super) fn write(film: &Film, plan: &Plan, view: &View<'_>, timeline: &mut Timeline) -> Result<Report, Failure> {
     let frames = frames(film, timeline)?;
     match film.format {
         Format::Gif => store(film, frames, FilmFormat::Gif, (&plan.target, plan.size), view, timeline),
         Format::Apng => store(film, frames, FilmFormat::Apng, (&plan.target, plan.size), view, timeline),
         Format::Mp4 if mp4::is_there() => {
             let output = Output::Mp4(Mp4::new(&plan.target, plan.size, film.rate)?);
-            draw(film, frames, output, view, timeline)
+            Ok(draw(film, frames, output, view, timeline)?.of(&plan.target, plan.size))
         }
         Format::Mp4 => {
             let target = Target::new("--output", &plan.target.path().with_extension("apng"), &["apng"])?;
@@ -53,11 +55,12 @@ fn store(
     (target, size): (&Target, (u32, u32)),
     view: &View<'_>,
     timeline: &mut Timeline,
-) -> Result<(), Failure> {
+) -> Result<Report, Failure> {
     let mut aside = target.open()?;
     let encoder = Box::new(Encoder::new(&mut aside, format, size, frames, film.rate)?);
-    draw(film, frames, Output::File { encoder, target }, view, timeline)?;
-    aside.finish()
+    let report = draw(film, frames, Output::File { encoder, target }, view, timeline)?;
+    aside.finish()?;
+    Ok(report.of(target, size))
 }
 
 /// How many pictures the film has; whether there are such moments.
@@ -84,25 +87,61 @@ fn draw(
     mut output: Output<'_, '_>,
     view: &View<'_>,
     timeline: &mut Timeline,
-) -> Result<(), Failure> {
-    let moment = |share: f64| film.at + share * f64::from(frames - 1) / f64::from(film.rate) * film.speed;
+) -> Result<Report, Failure> {
+    let share = |number: u32| f64::from(number) / f64::from(frames.max(2) - 1);
+    let moment = |number: u32| film.at + f64::from(number) / f64::from(film.rate) * film.speed;
+    let moments: Vec<f64> = (0..frames).map(moment).collect();
+    let mut kept = Kept::new(timeline, &moments)?;
     // One camera for the whole film, which has in view what it shows at its start, at its end and between.
-    let moments = PREVIEWS.map(moment);
-    let slices = PREVIEWS.iter().map(|&share| view.slice(share));
-    let sights: Vec<Sight> = timeline.preview(&moments)?.into_iter().zip(slices).collect();
+    let previews: Vec<u32> = (0..PREVIEWS).map(|index| (frames - 1) * index / (PREVIEWS - 1)).collect();
+    let ahead = kept.look_ahead(timeline, &moments, &previews)?;
+    let slices = previews.iter().map(|&number| view.slice(share(number)));
+    let sights: Vec<Sight> = ahead.into_iter().zip(slices).collect();
     let camera = view.camera(timeline, &sights)?;
-    let mut progress = Progress::new("pictures of the film", u64::from(frames));
+    let drawing = Drawing::new(view, frames);
     for number in 0..frames {
-        let share = f64::from(number) / f64::from(frames.max(2) - 1);
-        let frame = timeline.moment(moment(share))?;
-        output.add(&view.picture(timeline, &frame, share, &camera)?)?;
-        progress.advance();
+        let frame = kept.next(timeline, moments[number as usize])?;
+        output.add(&drawing.picture(view, timeline, &frame, share(number), &camera)?)?;
     }
-    output.finish()
+    output.finish()?;
+    Ok(Report::new(timeline, &camera, &moments))
 }
 
 /// The parts of a film that the camera is chosen for.
-const PREVIEWS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+const PREVIEWS: u32 = 9;
+
+/// Most bytes of poses that are kept in memory; the bodies of a longer film are simulated twice, once for the camera.
+const MAX_KEPT_BYTES: u64 = 256 << 20;
+
+/// The bodies of a film, kept if they have been simulated already.
+struct Kept(Option<std::collections::VecDeque<Frame>>);
+
+impl Kept {
+    fn new(timeline: &mut Timeline, moments: &[f64]) -> Result<Self, Failure> {
+        match timeline.bytes_per_moment() {
+            Some(bytes) if bytes * moments.len() as u64 <= MAX_KEPT_BYTES => {
+                Ok(Self(Some(timeline.moments(moments)?.into())))
+            }
+            _ => Ok(Self(None)),
+        }
+    }
+
+    /// The bodies in the pictures with these numbers.
+    fn look_ahead(&self, timeline: &mut Timeline, moments: &[f64], numbers: &[u32]) -> Result<Vec<Frame>, Failure> {
+        match &self.0 {
+            Some(frames) => Ok(numbers.iter().map(|&number| frames[number as usize].clone()).collect()),
+            None => timeline.look_ahead(&numbers.iter().map(|&number| moments[number as usize]).collect::<Vec<_>>()),
+        }
+    }
+
+    /// The bodies in the next picture, whose moment this is.
+    fn next(&mut self, timeline: &mut Timeline, moment: f64) -> Result<Frame, Failure> {
+        match self.0.as_mut().and_then(std::collections::VecDeque::pop_front) {
+            Some(frame) => Ok(frame),
+            None => timeline.moment(moment),
+        }
+    }
+}
 
 impl Output<'_, '_> {
     fn add(&mut self, image: &Image) -> Result<(), Failure> {

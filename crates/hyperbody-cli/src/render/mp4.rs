@@ -51,6 +51,7 @@ impl<'a> Mp4<'a> {
         // The table of contents comes first, so that a film plays while it is loaded.
         command.args(["-movflags", "+faststart", "-f", "mp4"]).arg(target.draft());
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+        target.begin();
         let mut child = command.spawn().map_err(|error| target.unwritable(&format!("ffmpeg: {error}")))?;
         let pictures = child.stdin.take();
         let complaint = child.stderr.take().map(|mut stderr| {

@@ -1,5 +1,7 @@
 //! What is to be drawn: a picture, a film or a sheet, and whether the options go with it.
 
+use hyperbody_render::picture::{MAX_SIDE, MIN_SIDE};
+
 use crate::failure::Failure;
 use crate::files::Target;
 
@@ -73,13 +75,7 @@ impl Plan {
             (None, Some(_)) => (480, 270),
             (None, None) => (1280, 720),
         };
-        let size = match (arguments.width, arguments.height) {
-            (None, None) => default_size,
-            // One of them decides, and the other keeps the proportions of a screen.
-            (Some(width), None) => (width, (width * 9 / 32 * 2).max(16)),
-            (None, Some(height)) => ((height * 8 / 9 * 2).max(16), height),
-            (Some(width), Some(height)) => (width, height),
-        };
+        let size = size(arguments, default_size)?;
         if format == Some(Format::Mp4) && (size.0 % 2 == 1 || size.1 % 2 == 1) {
             let (width, height) = size;
             let (even_width, even_height) = (width & !1, height & !1);
@@ -102,6 +98,26 @@ impl Plan {
             (None, None) => Work::Still { at: arguments.at },
         };
         Ok(Self { target, size, work })
+    }
+}
+
+/// Pixels across and down. Where one is said, the other keeps the proportions of a screen.
+fn size(arguments: &RenderArguments, default: (u32, u32)) -> Result<(u32, u32), Failure> {
+    match (arguments.width, arguments.height) {
+        (None, None) => Ok(default),
+        (Some(width), None) => Ok((width, (width * 9 / 32 * 2).max(MIN_SIDE))),
+        (Some(width), Some(height)) => Ok((width, height)),
+        (None, Some(height)) => {
+            let width = (height * 8 / 9 * 2).max(MIN_SIDE);
+            if width > MAX_SIDE {
+                return Err(Failure::Input(format!(
+                    "--height {height} makes pictures of {width} × {height} pixels, and {MAX_SIDE} across are the most; \
+                     give a --width too, or a --height of {} at most",
+                    MAX_SIDE * 9 / 16
+                )));
+            }
+            Ok((width, height))
+        }
     }
 }
 

@@ -1,16 +1,16 @@
 //! Sheets: pictures beside each other that differ in one thing, a place of the slice, a turn of it, or the moment.
 
 use hyperbody::math::planes::AXIS_NAMES;
-use hyperbody_render::Image;
+use hyperbody_render::Sheet as Canvas;
 
 use super::DEFAULT_MOMENT;
 use super::arguments::{self, SheetAxis};
 use super::plan::{Plan, Sheet};
+use super::report::Report;
 use super::timeline::Timeline;
-use super::view::{Sight, View};
+use super::view::{Drawing, Sight, View};
 use crate::failure::Failure;
 use crate::output::number;
-use crate::progress::Progress;
 
 /// What differs.
 enum Varied {
@@ -19,7 +19,7 @@ enum Varied {
     Turn((usize, usize)),
 }
 
-pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut Timeline) -> Result<(), Failure> {
+pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut Timeline) -> Result<Report, Failure> {
     let bad = |message: String| Failure::Input(format!("--sheet: {message}"));
     let SheetAxis { name, .. } = &sheet.axis;
     let dimension = timeline.dimension();
@@ -30,7 +30,16 @@ pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut 
     } else {
         Varied::Turn(arguments::plane(name, dimension).map_err(bad)?)
     };
+    match varied {
+        Varied::Time => {}
+        Varied::Place(axis) => view.check_unsaid_axis(axis, name)?,
+        Varied::Turn(plane) => view.check_unsaid_plane(plane, name)?,
+    }
     let values = sheet.axis.values();
+    let count = values.len() as u32;
+    // Made before the work: it knows whether it would be too large.
+    let mut canvas = Canvas::new(plan.size, count, sheet.columns.unwrap_or_else(|| columns(count)))
+        .map_err(|error| bad(error.to_string()))?;
     let at = sheet.at.unwrap_or_else(|| timeline.up_to(DEFAULT_MOMENT));
     let moment = |value: f64| if let Varied::Time = varied { value } else { at };
     // A simulation goes forwards only, whatever the order on the sheet.
@@ -42,21 +51,19 @@ pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut 
     }
     let views: Vec<View<'_>> = values.iter().map(|&value| varied.view(view, value)).collect();
     // One camera for all pictures, so that they can be compared.
-    let frames = timeline.preview(&ordered)?;
+    let frames = timeline.moments(&ordered)?;
     let sights: Vec<Sight> =
         frames.into_iter().zip(&order).map(|(frame, &index)| (frame, views[index].slice(0.0))).collect();
     let camera = view.camera(timeline, &sights)?;
-    let mut images: Vec<Option<Image>> = vec![None; values.len()];
-    let mut progress = Progress::new("pictures of the sheet", values.len() as u64);
+    let drawing = Drawing::new(view, count);
     for ((frame, _), &index) in sights.iter().zip(&order) {
-        images[index] = Some(views[index].picture(timeline, frame, 0.0, &camera)?);
-        progress.advance();
+        canvas.place(index as u32, &drawing.picture(&views[index], timeline, frame, 0.0, &camera)?)?;
     }
-    let images: Vec<Image> = images.into_iter().flatten().collect();
-    let image = Image::sheet(&images, sheet.columns.unwrap_or_else(|| columns(images.len())))?;
+    let image = canvas.into_image();
     let mut bytes = Vec::new();
     image.write_png(&mut bytes)?;
-    plan.target.write(&bytes)
+    plan.target.write(&bytes)?;
+    Ok(Report::new(timeline, &camera, &ordered).of(&plan.target, (image.width(), image.height())))
 }
 
 impl Varied {
@@ -81,6 +88,6 @@ impl Varied {
 }
 
 /// As many columns as rows, or one more.
-fn columns(count: usize) -> u32 {
-    (1..=count as u32).find(|columns| (columns * columns) as usize >= count).unwrap_or(1)
+fn columns(count: u32) -> u32 {
+    (1..=count).find(|columns| columns * columns >= count).unwrap_or(1)
 }

@@ -28,6 +28,7 @@ enum Kind {
     Simulated {
         scene: Box<Scene>,
         world: Box<AnyWorld>,
+        threads: usize,
     },
     Recorded(Box<Recording>),
 }
@@ -49,7 +50,7 @@ impl Timeline {
         let scene = source::scene(argument)?;
         let start = AnyWorld::new(&scene, 1)?;
         let world = Box::new(AnyWorld::new(&scene, threads)?);
-        let kind = Kind::Simulated { scene: Box::new(scene.clone()), world };
+        let kind = Kind::Simulated { scene: Box::new(scene.clone()), world, threads };
         let colours = colours(&scene);
         Ok(Self { name: scene.name, argument: argument.to_owned(), start, colours, kind })
     }
@@ -103,13 +104,18 @@ impl Timeline {
         Ok(())
     }
 
+    /// The number of the step at a moment.
+    fn step_at(&self, seconds: f64) -> Result<u64, Failure> {
+        self.check(seconds)?;
+        Ok((seconds / self.start.dt()).round() as u64)
+    }
+
     /// The bodies at a moment, or at the nearest step that there is. A simulation cannot go back.
     pub(super) fn moment(&mut self, seconds: f64) -> Result<Frame, Failure> {
-        self.check(seconds)?;
-        let step = (seconds / self.start.dt()).round() as u64;
+        let step = self.step_at(seconds)?;
         match &mut self.kind {
             Kind::Simulated { world, .. } => {
-                step_to(world, step, &self.name);
+                step_to(world, step, None);
                 Ok(Frame::of(world))
             }
             Kind::Recorded(recording) => {
@@ -120,19 +126,35 @@ impl Timeline {
         }
     }
 
-    /// The bodies at moments to come, in order, while a simulation stays where it is: to choose a camera that suits them all.
-    pub(super) fn preview(&mut self, moments: &[f64]) -> Result<Vec<Frame>, Failure> {
-        let Kind::Simulated { scene, .. } = &self.kind else {
-            return moments.iter().map(|&moment| self.moment(moment)).collect();
-        };
-        let mut ahead = AnyWorld::new(scene, 1)?;
-        let mut frames = Vec::with_capacity(moments.len());
-        for &moment in moments {
-            self.check(moment)?;
-            step_to(&mut ahead, (moment / self.start.dt()).round() as u64, "looking ahead");
-            frames.push(Frame::of(&ahead));
+    /// The bodies at moments in ascending order.
+    pub(super) fn moments(&mut self, moments: &[f64]) -> Result<Vec<Frame>, Failure> {
+        let steps = moments.iter().map(|&moment| self.step_at(moment)).collect::<Result<Vec<u64>, Failure>>()?;
+        match &mut self.kind {
+            Kind::Simulated { world, .. } => Ok(simulate(world, &steps, &self.name)),
+            Kind::Recorded(_) => moments.iter().map(|&moment| self.moment(moment)).collect(),
         }
-        Ok(frames)
+    }
+
+    /// As [`Timeline::moments`], while the simulation itself stays where it is.
+    pub(super) fn look_ahead(&mut self, moments: &[f64]) -> Result<Vec<Frame>, Failure> {
+        let Kind::Simulated { scene, threads, .. } = &self.kind else { return self.moments(moments) };
+        let mut ahead = AnyWorld::new(scene, *threads)?;
+        let steps = moments.iter().map(|&moment| self.step_at(moment)).collect::<Result<Vec<u64>, Failure>>()?;
+        Ok(simulate(&mut ahead, &steps, &self.name))
+    }
+
+    /// Bytes of the poses at one moment, if looking there again means simulating again.
+    pub(super) fn bytes_per_moment(&self) -> Option<u64> {
+        let numbers = self.start.body_names().len() * Frame::numbers(self.dimension());
+        matches!(self.kind, Kind::Simulated { .. }).then_some(8 * numbers as u64)
+    }
+
+    /// The hash of the simulation's state at the last moment that was asked for; a recording has none.
+    pub(super) fn state_hash(&self) -> Option<u64> {
+        match &self.kind {
+            Kind::Simulated { world, .. } => Some(world.state_hash()),
+            Kind::Recorded(_) => None,
+        }
     }
 
     /// What there is to see, where it is in a frame.
@@ -156,10 +178,22 @@ fn colours(scene: &Scene) -> Vec<Option<[f64; 3]>> {
     scene.bodies.iter().map(|body| body.colour).collect()
 }
 
-fn step_to(world: &mut AnyWorld, step: u64, what: &str) {
-    let mut progress = Progress::new(what, step.saturating_sub(world.step_count()));
+/// The bodies at these steps, which ascend.
+fn simulate(world: &mut AnyWorld, steps: &[u64], name: &str) -> Vec<Frame> {
+    let last = steps.last().copied().unwrap_or(0);
+    let mut progress = Progress::new(&format!("simulating {name}"), last.saturating_sub(world.step_count()));
+    let at = |&step: &u64| {
+        step_to(world, step, Some(&mut progress));
+        Frame::of(world)
+    };
+    steps.iter().map(at).collect()
+}
+
+fn step_to(world: &mut AnyWorld, step: u64, mut progress: Option<&mut Progress>) {
     while world.step_count() < step {
         world.step();
-        progress.advance();
+        if let Some(progress) = &mut progress {
+            progress.advance();
+        }
     }
 }

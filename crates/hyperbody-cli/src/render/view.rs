@@ -1,8 +1,10 @@
 //! How to look: the slice, the camera, and what is written on the picture.
 
+use std::cell::Cell;
 use std::sync::Mutex;
 
 use hyperbody::math::{Dim, EvenAlgebra, Vector, planes, scalar};
+use hyperbody_render::picture::parts;
 use hyperbody_render::{Camera, Image, Settings, Slice, frame_all, render as draw};
 use hyperbody_scene::recording::Frame;
 use hyperbody_scene::{DimensionVisitor, visit_dimension};
@@ -72,18 +74,19 @@ impl<'a> View<'a> {
             strip: !arguments.no_strip,
             threads: arguments.threads.map_or(0, usize::from),
         };
-        for (name, value) in named(&arguments.slice) {
-            view.move_to(arguments::axis(name, dimension).map_err(|message| bad("--slice", message))?, *value);
+        for (axis, value) in axes("--slice", &arguments.slice, dimension)? {
+            view.move_to(axis, value);
         }
-        for (name, value) in named(&arguments.slice_to) {
-            view.points[1][arguments::axis(name, dimension).map_err(|message| bad("--slice-to", message))?] = *value;
+        for (axis, value) in axes("--slice-to", &arguments.slice_to, dimension)? {
+            view.points[1][axis] = value;
         }
-        for (name, degrees) in named(&arguments.turn) {
-            let (i, j) = arguments::plane(name, dimension).map_err(|message| bad("--turn", message))?;
+        for ((i, j), degrees) in planes_of("--turn", &arguments.turn, dimension)? {
             view.turns.push(Turn { i, j, angles: [degrees.to_radians(); 2] });
         }
-        for (name, degrees) in named(&arguments.turn_to) {
-            let plane = arguments::plane(name, dimension).map_err(|message| bad("--turn-to", message))?;
+        for ((i, j), degrees) in planes_of("--turn-to", &arguments.turn_to, dimension)? {
+            // From y to x is from x to y backwards.
+            let backwards = view.turns.iter().any(|turn| (turn.i, turn.j) == (j, i));
+            let (plane, degrees) = if backwards { ((j, i), -degrees) } else { ((i, j), degrees) };
             view.turn_in(plane).angles[1] = degrees.to_radians();
         }
         view.check_camera()?;
@@ -112,6 +115,27 @@ impl<'a> View<'a> {
                 Err(bad("--camera", message))
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Refuses a sheet along an axis of which `--slice` says where the slice is.
+    pub(super) fn check_unsaid_axis(&self, axis: usize, name: &str) -> Result<(), Failure> {
+        let said = axes("--slice", &self.arguments.slice, self.points[0].len())?;
+        match said.iter().find(|(said, _)| *said == axis) {
+            Some((_, value)) => Err(bad("--slice", both(&format!("{name}={}", number(*value)), name))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses a sheet of turns in a plane of which `--turn` says how far the slice is turned.
+    pub(super) fn check_unsaid_plane(&self, (i, j): (usize, usize), name: &str) -> Result<(), Failure> {
+        match self.turns.iter().find(|turn| [(i, j), (j, i)].contains(&(turn.i, turn.j))) {
+            Some(turn) => {
+                let plane = [turn.i, turn.j].map(|axis| planes::AXIS_NAMES[axis]);
+                let degrees = number(turn.angles[0].to_degrees());
+                Err(bad("--turn", both(&format!("{}{}={degrees}", plane[0], plane[1]), name)))
+            }
+            None => Ok(()),
         }
     }
 
@@ -150,28 +174,6 @@ impl<'a> View<'a> {
     pub(super) fn camera(&self, timeline: &Timeline, sights: &[Sight]) -> Result<Camera, Failure> {
         visit_dimension(timeline.dimension(), ChooseCamera { view: self, timeline, sights })
             .unwrap_or_else(|| no_such(timeline))
-    }
-
-    /// The bodies of a frame when `share` of a film is over.
-    pub(super) fn picture(
-        &self,
-        timeline: &Timeline,
-        frame: &Frame,
-        share: f64,
-        camera: &Camera,
-    ) -> Result<Image, Failure> {
-        let rows = 3 * u64::from(self.size.1);
-        let progress = Mutex::new((Progress::new("drawing", rows), 0));
-        let tell = |more: u64| {
-            if let Ok(mut progress) = progress.lock() {
-                progress.1 += more;
-                let done = progress.1;
-                progress.0.reach(done);
-            }
-        };
-        let (slice, caption) = (self.slice(share), self.caption(timeline, frame, share));
-        let task = Draw { view: self, timeline, frame, slice, camera, caption, tell: &tell };
-        visit_dimension(timeline.dimension(), task).unwrap_or_else(|| no_such(timeline))
     }
 
     fn caption(&self, timeline: &Timeline, frame: &Frame, share: f64) -> Vec<String> {
@@ -227,12 +229,87 @@ fn named(list: &Option<Assignments>) -> &[(String, f64)] {
     list.as_ref().map_or(&[], |list| &list.0)
 }
 
+/// What is said where the sheet says it already.
+fn both(said: &str, sheet: &str) -> String {
+    format!("{said} and --sheet {sheet}=… both say where the slice is; leave one of them out")
+}
+
+/// Axes by name with their values, each axis once.
+fn axes(option: &str, list: &Option<Assignments>, dimension: usize) -> Result<Vec<(usize, f64)>, Failure> {
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for (name, value) in named(list) {
+        let axis = arguments::axis(name, dimension).map_err(|message| bad(option, message))?;
+        if found.iter().any(|(other, _)| *other == axis) {
+            return Err(bad(option, format!("{name} is named twice; name every axis once")));
+        }
+        found.push((axis, *value));
+    }
+    Ok(found)
+}
+
+/// A plane, from its first axis towards its second, and degrees.
+type PlaneAngle = ((usize, usize), f64);
+
+/// Planes by name with their values, each plane once.
+fn planes_of(option: &str, list: &Option<Assignments>, dimension: usize) -> Result<Vec<PlaneAngle>, Failure> {
+    let mut found: Vec<PlaneAngle> = Vec::new();
+    for (name, value) in named(list) {
+        let (i, j) = arguments::plane(name, dimension).map_err(|message| bad(option, message))?;
+        if found.iter().any(|(other, _)| [(i, j), (j, i)].contains(other)) {
+            return Err(bad(option, format!("the plane {name} is named twice; name every plane once")));
+        }
+        found.push(((i, j), *value));
+    }
+    Ok(found)
+}
+
 fn mix(from: f64, to: f64, share: f64) -> f64 {
     from + (to - from) * share
 }
 
 fn no_such<T>(timeline: &Timeline) -> Result<T, Failure> {
     Err(Failure::Work(format!("no pictures in {} dimensions", timeline.dimension())))
+}
+
+/// Pictures in the making, with one bar for all of them.
+pub(super) struct Drawing {
+    progress: Mutex<Progress>,
+    pictures: u32,
+    drawn: Cell<u32>,
+}
+
+impl Drawing {
+    /// So many pictures.
+    pub(super) fn new(view: &View<'_>, pictures: u32) -> Self {
+        let parts = parts(view.size.1) * u64::from(pictures);
+        Self { progress: Mutex::new(Progress::in_percent("drawing", parts)), pictures, drawn: Cell::new(0) }
+    }
+
+    /// The bodies of a frame when `share` of a film is over.
+    pub(super) fn picture(
+        &self,
+        view: &View<'_>,
+        timeline: &Timeline,
+        frame: &Frame,
+        share: f64,
+        camera: &Camera,
+    ) -> Result<Image, Failure> {
+        self.drawn.set(self.drawn.get() + 1);
+        if self.pictures > 1
+            && let Ok(progress) = self.progress.lock()
+        {
+            progress.say(format!("drawing picture {} of {}", self.drawn.get(), self.pictures));
+        }
+        let progress = &self.progress;
+        let tell = |more: u64| {
+            if let Ok(mut progress) = progress.lock() {
+                progress.advance_by(more);
+            }
+        };
+        let (slice, caption) = (view.slice(share), view.caption(timeline, frame, share));
+        let task = Draw { view, timeline, frame, slice, camera, caption, tell: &tell };
+        visit_dimension(timeline.dimension(), task).unwrap_or_else(|| no_such(timeline))
+    }
 }
 
 /// Choosing a camera, in the dimension of the world.

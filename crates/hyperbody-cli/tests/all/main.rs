@@ -6,6 +6,7 @@ mod inspect_regular;
 mod play;
 mod recording;
 mod render;
+mod render_limits;
 mod results;
 mod slice;
 mod spin;
