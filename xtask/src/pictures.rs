@@ -44,7 +44,7 @@ struct Picture {
 }
 
 /// The pictures and films of the README and of the chapters: file, scene, size, options.
-const SHOWN: [(&str, &str, (u32, u32), &str); 4] = [
+const SHOWN: [(&str, &str, (u32, u32), &str); 6] = [
     (
         "falling.gif",
         "pit4d",
@@ -52,6 +52,8 @@ const SHOWN: [(&str, &str, (u32, u32), &str); 4] = [
         "--seconds 3.6 --speed 0.6 --frame-rate 13 --camera 34,13,12.5 --look-at 0,1.9,0 --no-caption",
     ),
     ("dice4d.png", "dice4d", (1200, 560), "--at 1 --slice w=-0.5 --camera 30,16,7.4 --quality 8"),
+    ("sheet-w.png", "dice4d", (320, 180), "--at 3 --sheet w=-1..1,6 --columns 3 --camera 30,16,8"),
+    ("sheet-t.png", "pit4d", (320, 180), "--sheet t=0..2,6 --columns 3 --no-strip"),
     (
         "through-w.gif",
         "dice4d",
@@ -71,7 +73,7 @@ const MOMENTS: [(&str, &str); 15] = [
     ("bounce2d", "--at 0.8"),
     ("cradle2d", "--at 0.35"),
     ("ramp3d", "--at 1.9"),
-    ("wing_nut3d", "--at 1.9"),
+    ("wing_nut3d", "--at 2.6 --camera 34,17,3.2"),
     ("dominoes3d", "--at 3.5"),
     ("chain3d", "--at 0.9"),
     ("stack4d", "--at 1"),
@@ -80,9 +82,11 @@ const MOMENTS: [(&str, &str); 15] = [
     // The five stand in a row along w, which takes the place of z here.
     ("ramp4d", "--at 1.1 --turn zw=90"),
     ("tumble4d", "--at 2.3"),
-    ("bowling4d", "--at 1.25"),
-    ("pendulum4d", "--at 1.2"),
-    ("clouds5d", "--at 1.5"),
+    // Ten of the twenty pins stand in the face of the tetrahedron that this slice runs along.
+    ("bowling4d", "--at 0.92 --turn xw=-18.435 --camera -40,24"),
+    ("pendulum4d", "--at 1"),
+    // Half of the cubes of each cloud are there on the positive sides of w and v.
+    ("clouds5d", "--at 1.4 --slice w=0.7,v=0.7"),
     ("balls6d", "--at 1.5"),
 ];
 

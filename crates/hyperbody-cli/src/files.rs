@@ -74,7 +74,10 @@ impl Target {
             return Ok(target);
         }
         // Whether the folder takes files is seen by trying, before the work and not after it.
-        match fs::write(target.aside(), []).and_then(|()| fs::remove_file(target.aside())) {
+        target.begin();
+        let tried = fs::write(target.aside(), []);
+        target.discard();
+        match tried {
             Ok(()) => Ok(target),
             Err(error) => refuse(format!("cannot be written: {error}")),
         }

@@ -156,7 +156,8 @@ fn next_frame(shown: &mut Vec<[u8; 3]>, image: &Image) -> gif::Frame<'static> {
     // One pixel if nothing differs, because a GIF has no smaller picture.
     let columns = || changed.iter().map(|index| index % width);
     let (left, right) = (columns().min().unwrap_or(0), columns().max().unwrap_or(0));
-    let (top, bottom) = (changed.first().map_or(0, |first| first / width), changed.last().map_or(0, |last| last / width));
+    let (top, bottom) =
+        (changed.first().map_or(0, |first| first / width), changed.last().map_or(0, |last| last / width));
     let transparent = palette.colours.len() as u8;
     let frame_width = right - left + 1;
     let mut buffer = vec![transparent; frame_width * (bottom - top + 1)];

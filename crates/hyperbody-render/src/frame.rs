@@ -8,7 +8,7 @@ use crate::camera::Lens;
 use crate::colour::{Encoder, Rgb};
 use crate::image::Image;
 use crate::light::Light;
-use crate::occlusion::{self, Blockers, LightRays, Reach};
+use crate::occlusion::{BLOCK, Blockers, LightRays, Reach, Smoother};
 use crate::stage::Stage;
 use crate::surface::{NO_SOLID, SKY, Scratch, Seen};
 
@@ -35,7 +35,7 @@ pub(crate) struct Frame<'a, const N: usize> {
 const PIXELS_AT_ONCE: usize = 2_000_000;
 
 /// Rows beyond its own that a band needs: the mean of the light reaches four rows down, from a neighbour of the pixel.
-const MARGIN: usize = occlusion::BLOCK + 1;
+const MARGIN: usize = BLOCK + 1;
 
 /// Some rows of a picture, and all that is known of them and of the rows around.
 struct Band {
@@ -46,10 +46,21 @@ struct Band {
     reach: Vec<Reach>,
 }
 
-/// Where a pixel is sampled when once is not enough: point `index` of `count` of the plastic-number sequence
-/// (M. Roberts, 2018), which is even for every count.
+/// Whether two samples show different things.
+fn is_other(a: &Seen, b: &Seen) -> bool {
+    a.key != b.key || (a.veil_cover - b.veil_cover).abs() > 0.04
+}
+
+/// Samples of a pixel beside an edge that have to agree for the others to be spared: the middle and four near the corners.
+const FIRST_SAMPLES: u32 = 5;
+
+/// The order of the first points, those first that matter for [`FIRST_SAMPLES`].
+const FIRST_POINTS: [u32; 8] = [0, 1, 3, 6, 4, 2, 5, 7];
+
+/// Where a pixel is sampled when once is not enough, first in its middle: points of the plastic-number sequence
+/// (M. Roberts, 2018), which are even for every count.
 fn subpixel(index: u32) -> (f64, f64) {
-    let step = f64::from(index);
+    let step = f64::from(*FIRST_POINTS.get(index as usize).unwrap_or(&index));
     let (a, b) = (0.5 + step * 0.754_877_666_246_693, 0.5 + step * 0.569_840_290_998_053);
     (a - a.floor(), b - b.floor())
 }
@@ -111,9 +122,10 @@ impl<const N: usize> Frame<'_, N> {
             }
         });
         let mut reach = vec![Reach::default(); count];
+        let smoother = Smoother::new(&seen, &raw, self.width, self.stage.size);
         self.rows(&mut reach, first, own, |y, row, _| {
             for (x, pixel) in row.iter_mut().enumerate() {
-                *pixel = occlusion::smoothed(&seen, &raw, self.width, (x, y - first), self.stage.size);
+                *pixel = smoother.at(x, y - first);
             }
         });
         Band { first, seen, reach }
@@ -143,10 +155,7 @@ impl<const N: usize> Frame<'_, N> {
     /// Whether a pixel and its neighbours show different things.
     fn is_mixed(&self, band: &Band, x: usize, y: usize) -> bool {
         let here = &band.seen[band.index(self.width, x, y)];
-        let differs = |x: usize, y: usize| {
-            let other = &band.seen[band.index(self.width, x, y)];
-            other.key != here.key || (other.veil_cover - here.veil_cover).abs() > 0.04
-        };
+        let differs = |x: usize, y: usize| is_other(here, &band.seen[band.index(self.width, x, y)]);
         (x > 0 && differs(x - 1, y))
             || (x + 1 < self.width && differs(x + 1, y))
             || (y > 0 && differs(x, y - 1))
@@ -157,13 +166,18 @@ impl<const N: usize> Frame<'_, N> {
     fn mixed(&self, band: &Band, (x, y): (usize, usize), scratch: &mut Scratch<N>) -> Rgb {
         let here = &band.seen[band.index(self.width, x, y)];
         let mut sum = Rgb::BLACK;
+        let (mut count, mut agree) = (0.0, true);
         for index in 0..self.edge_samples {
+            // The edge is the neighbour's.
+            if index == FIRST_SAMPLES && agree {
+                break;
+            }
             let (dx, dy) = subpixel(index);
             let (at_x, at_y) = (x as f64 + dx, y as f64 + dy);
             // The first one is the middle of the pixel, which is known.
             let sample = if index == 0 { *here } else { self.sample(at_x, at_y, here.solid, scratch) };
             let reach = if sample.key == SKY {
-                Reach { sun: 1.0, sky: 1.0 }
+                Reach::OPEN
             } else {
                 self.nearby(band, sample.key, (x, y), (dx, dy)).unwrap_or_else(|| {
                     let place = (x + index as usize, y);
@@ -171,11 +185,13 @@ impl<const N: usize> Frame<'_, N> {
                     self.stage.reach(&sample, &self.light, place, &self.rays[1], memory)
                 })
             };
+            agree &= !is_other(here, &sample);
+            count += 1.0;
             // Bright samples would outshine the rest of an edge and leave steps.
             let colour = self.shade(&sample, reach, at_x, at_y);
             sum += colour * (1.0 / (1.0 + 0.5 * colour.luminance()));
         }
-        let mean = sum * (1.0 / self.edge_samples as f32);
+        let mean = sum * (1.0 / count);
         mean * (1.0 / (1.0 - 0.5 * mean.luminance()).max(0.05))
     }
 

@@ -4,6 +4,22 @@
 //! the slice and is cast against the solids themselves by the engine's own ray query. Sun, sky and soft shadows are rays
 //! as well. Work is shared among threads by rows, and the picture is the same bytes for every number of them.
 //!
+//! ```
+//! use hyperbody::prelude::*;
+//! use hyperbody_render::{Bodies, Settings, Slice, render};
+//!
+//! let mut world = World::<4>::new(WorldDef::default())?;
+//! world.add_body(BodyDef::fixed(Shape::half_space([0.0, 1.0, 0.0, 0.0], 0.0)?))?;
+//! world.add_body(BodyDef::new(Shape::cuboid([0.5; 4])?).position([0.0, 0.5, 0.0, 0.0]))?;
+//! // From x towards w: the tesseract is cut at a slant.
+//! let slice = Slice::natural().turned(0, 3, 0.5);
+//! let settings = Settings { width: 64, height: 36, ..Settings::default() };
+//! let image = render(&Bodies::of(&world), &slice, None, &settings, &|_| ())?;
+//! let mut png = Vec::new();
+//! image.write_png(&mut png)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! | module | holds |
 //! |---|---|
 //! | [`slice`](mod@slice) | [`Slice`]: which three directions of the world are seen |

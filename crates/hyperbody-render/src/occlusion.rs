@@ -11,7 +11,7 @@ use crate::stage::Stage;
 use crate::surface::{NO_SOLID, SKY, Seen};
 
 /// Shares of the sun and of the sky that reach a point, in [0, 1].
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Reach {
     pub(crate) sun: f32,
     pub(crate) sky: f32,
@@ -83,7 +83,7 @@ impl<const N: usize> Stage<N> {
         (blockers, stack): (&mut Blockers, &mut RayStack),
     ) -> Reach {
         if seen.key == SKY || seen.haze > 0.995 {
-            return Reach { sun: 1.0, sky: 1.0 };
+            return Reach::OPEN;
         }
         let origin = seen.point + seen.normal * (1e-4 * self.size + 1e-9 * seen.distance);
         let place = ORDER[y % BLOCK][x % BLOCK] as usize;
@@ -123,27 +123,61 @@ impl<const N: usize> Stage<N> {
     }
 }
 
+impl Reach {
+    /// Where nothing stands in the way.
+    pub(crate) const OPEN: Self = Self { sun: 1.0, sky: 1.0 };
+}
+
 /// The mean of the blocks around a pixel over pixels of the same surface, or of one that goes on nearly flat.
-pub(crate) fn smoothed(seen: &[Seen], raw: &[Reach], width: usize, (x, y): (usize, usize), size: f64) -> Reach {
-    let height = seen.len() / width;
-    let here = &seen[y * width + x];
-    let (mut sun, mut sky, mut count) = (0.0, 0.0, 0.0);
-    let rows = y.saturating_sub(BLOCK - 1)..(y + BLOCK + 1).min(height);
-    for row in rows {
-        for column in x.saturating_sub(BLOCK - 1)..(x + BLOCK + 1).min(width) {
-            let index = row * width + column;
-            let other = &seen[index];
-            let same = other.key == here.key || (other.key != SKY && other.normal.dot(here.normal) > 0.95);
-            let offset = other.point - here.point;
-            if same && offset.dot(here.normal).abs() < 0.02 * size {
-                sun += raw[index].sun;
-                sky += raw[index].sky;
-                count += 1.0;
+pub(crate) struct Smoother<'a> {
+    seen: &'a [Seen],
+    raw: &'a [Reach],
+    width: usize,
+    height: usize,
+    /// Typical size of a body, m.
+    size: f64,
+    /// For each pixel how many up to it, in its row, lie open: where all around do, there is nothing to count.
+    open: Vec<u16>,
+}
+
+impl<'a> Smoother<'a> {
+    pub(crate) fn new(seen: &'a [Seen], raw: &'a [Reach], width: usize, size: f64) -> Self {
+        let mut open = vec![0; raw.len()];
+        for (row, raw) in open.chunks_exact_mut(width).zip(raw.chunks_exact(width)) {
+            let mut run: u16 = 0;
+            for (open, reach) in row.iter_mut().zip(raw) {
+                run = if *reach == Reach::OPEN { run.saturating_add(1) } else { 0 };
+                *open = run;
             }
         }
+        Self { seen, raw, width, height: raw.len() / width, size, open }
     }
-    if count == 0.0 {
-        return raw[y * width + x];
+
+    /// What reaches a pixel.
+    pub(crate) fn at(&self, x: usize, y: usize) -> Reach {
+        let rows = y.saturating_sub(BLOCK - 1)..(y + BLOCK + 1).min(self.height);
+        let columns = x.saturating_sub(BLOCK - 1)..(x + BLOCK + 1).min(self.width);
+        let is_open = |row: usize| usize::from(self.open[row * self.width + columns.end - 1]) >= columns.len();
+        if rows.clone().all(is_open) {
+            return Reach::OPEN;
+        }
+        let here = &self.seen[y * self.width + x];
+        let (mut sun, mut sky, mut count) = (0.0, 0.0, 0.0);
+        for row in rows {
+            for index in row * self.width + columns.start..row * self.width + columns.end {
+                let other = &self.seen[index];
+                let same = other.key == here.key || (other.key != SKY && other.normal.dot(here.normal) > 0.95);
+                let offset = other.point - here.point;
+                if same && offset.dot(here.normal).abs() < 0.02 * self.size {
+                    sun += self.raw[index].sun;
+                    sky += self.raw[index].sky;
+                    count += 1.0;
+                }
+            }
+        }
+        if count == 0.0 {
+            return self.raw[y * self.width + x];
+        }
+        Reach { sun: sun / count, sky: sky / count }
     }
-    Reach { sun: sun / count, sky: sky / count }
 }

@@ -137,3 +137,46 @@ fn check(camera: &Camera) -> Result<(), RenderError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use hyperbody::math::{Rotation, Vector};
+    use hyperbody::prelude::{BodyDef, Shape, World, WorldDef};
+
+    use super::*;
+
+    /// A large picture is worked on in bands of rows, to save memory: nobody must see where they meet.
+    #[test]
+    fn bands_of_rows_do_not_show() {
+        let mut world = World::<4>::new(WorldDef::default()).unwrap();
+        world.add_body(BodyDef::fixed(Shape::half_space(Vector::unit(1), 0.0).unwrap())).unwrap();
+        for index in 0..6 {
+            let away = f64::from(index);
+            let cube = BodyDef::new(Shape::cuboid([0.5; 4]).unwrap()).rotation(Rotation::in_plane(0, 3, 0.3 * away));
+            world.add_body(cube.position([0.7 * away - 2.0, 0.5 + 0.3 * away, -0.4 * away, 0.2 * away])).unwrap();
+        }
+        let bodies = Bodies::of(&world);
+        let stage = Stage::new(&bodies, &Slice::natural());
+        let camera = frame_bodies(&bodies, &Slice::natural(), 1.0);
+        let light = Light::new(stage.up, camera.target - camera.eye);
+        let draw = |rows_at_once: usize| {
+            let frame = Frame {
+                stage: &stage,
+                lens: Lens::new(&camera, 60, 60),
+                rays: [2, 4].map(|rays| LightRays::new(&light, rays)),
+                light: light.clone(),
+                width: 60,
+                height: 60,
+                rows_at_once,
+                edge_samples: 8,
+                ghosts: true,
+                progress: &|_| (),
+            };
+            frame.image()
+        };
+        let whole = draw(60);
+        for rows in [7, 16, 59] {
+            assert_eq!(draw(rows), whole, "{rows} rows at once");
+        }
+    }
+}

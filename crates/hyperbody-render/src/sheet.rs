@@ -32,7 +32,9 @@ impl Sheet {
         }
         let columns = columns.clamp(1, count);
         let rows = count.div_ceil(columns);
-        let sum = |number: u32, side: u32| u64::from(number).saturating_mul(u64::from(side) + u64::from(GAP)) - u64::from(GAP);
+        let sum = |number: u32, side: u32| {
+            u64::from(number).saturating_mul(u64::from(side) + u64::from(GAP)) - u64::from(GAP)
+        };
         let (width, height) = (sum(columns, size.0), sum(rows, size.1));
         let bytes = width.saturating_mul(height).saturating_mul(3);
         if bytes > MAX_SHEET_BYTES {

@@ -36,7 +36,7 @@ fn sizes_that_are_too_large_are_refused_before_the_work() {
         &["--at", "3600", "--sheet", "w=-1..1,64", "--width", "8192", "--height", "8192"],
         &["--sheet", "64 pictures of 8192 × 8192", "65564 × 65564 pixels", "300 MB are the most", "smaller or fewer"],
     );
-    refused(&["--at", "3600", "--sheet", "t=0..3600,64", "--width", "4096"], &["4096 × 2304", "300 MB"]);
+    refused(&["--sheet", "t=0..3600,64", "--width", "4096"], &["4096 × 2304", "300 MB"]);
     refused(
         &["--at", "3600", "--height", "8192"],
         &["--height 8192", "14562 × 8192", "8192 across are the most", "--width", "--height of 4608 at most"],
@@ -49,8 +49,14 @@ fn sizes_that_are_too_large_are_refused_before_the_work() {
 
 #[test]
 fn what_is_said_twice_is_refused() {
-    refused(&["--sheet", "w=-1..1,3", "--slice", "w=0.5"], &["--slice: w=0.5 and --sheet w=…", "leave one of them out"]);
-    refused(&["--sheet", "xw=0..90,3", "--turn", "xw=30"], &["--turn: xw=30 and --sheet xw=…", "leave one of them out"]);
+    refused(
+        &["--sheet", "w=-1..1,3", "--slice", "w=0.5"],
+        &["--slice: w=0.5 and --sheet w=…", "leave one of them out"],
+    );
+    refused(
+        &["--sheet", "xw=0..90,3", "--turn", "xw=30"],
+        &["--turn: xw=30 and --sheet xw=…", "leave one of them out"],
+    );
     refused(&["--sheet", "wx=0..90,3", "--turn", "xw=30"], &["--turn: xw=30 and --sheet wx=…"]);
     refused(&["--slice", "w=1,w=2"], &["--slice: w is named twice", "once"]);
     refused(&["--slice", "w=1,x=0,w=1"], &["--slice: w is named twice"]);
@@ -65,6 +71,57 @@ fn what_is_said_twice_is_refused() {
         assert!(error.contains(option) && error.contains("named twice"), "{error}");
     }
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+/// A folder that takes no files, from nobody.
+#[cfg(target_os = "linux")]
+#[test]
+fn where_nothing_can_be_written_is_said_before_the_work() {
+    for name in ["/proc/film.gif", "/proc/picture.png"] {
+        let output = hyperbody(&["render", "dice4d", "--at", "3600", "-o", name]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(&format!("--output: {name}: cannot be written")), "{error}");
+    }
+}
+
+#[test]
+fn what_is_no_recording_is_said_and_makes_no_picture() {
+    let folder = folder("foreign");
+    let draw = |name: &str, bytes: &[u8], words: &[&str]| {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        for output in ["foreign.png", "foreign.gif"] {
+            let picture = folder.join(output);
+            let arguments = ["render", path.to_str().unwrap(), "-o", picture.to_str().unwrap(), "--width", "64"];
+            let output = hyperbody(&arguments);
+            let error = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{error}");
+            for word in words {
+                assert!(error.contains(word), "{word:?} should be in {error}");
+            }
+            assert!(!picture.exists());
+        }
+        std::fs::remove_file(path).unwrap();
+        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0, "{name} leaves nothing behind");
+    };
+    let whole = folder.join("whole.hbrec");
+    assert!(hyperbody(&["run", "bounce2d", "--steps", "90", "--record", whole.to_str().unwrap()]).status.success());
+    let bytes = std::fs::read(&whole).unwrap();
+    std::fs::remove_file(&whole).unwrap();
+    draw("foreign.hbrec", b"\x89PNG\r\n\x1a\n and more", &["foreign.hbrec: is no recording", "--record FILE"]);
+    draw("empty.hbrec", b"", &["empty.hbrec: is no recording"]);
+    for share in [5, 2] {
+        draw(
+            "cut.hbrec",
+            &bytes[..bytes.len() * (share - 1) / share],
+            &["cut.hbrec: the recording is cut off at byte"],
+        );
+    }
+    draw("begun.hbrec", &bytes[..4], &["begun.hbrec: the recording is cut off at byte 4"]);
+    let mut newer = bytes;
+    newer[8] = 7;
+    draw("newer.hbrec", &newer, &["version 7", "reads version 1"]);
 }
 
 /// Draws into a file of this name, and gives what the program says of it.

@@ -62,9 +62,8 @@ fn a_section_of_a_ball_has_the_exact_radius() {
     a_ball_has_its_radius::<6>();
 }
 
-/// The section of a convex polytope by slice coordinates 0, 1, 2, seen along the third: the area of its shadow.
-fn shadow_of_section(polytope: &Polytope<4>, slice: &Slice<4>) -> f64 {
-    let section: SectionPolytope<3> = SectionPolytope::from_polytope(polytope).section(&SliceFrame::new(*slice.pose()));
+/// The area of the shadow of a solid along its third axis.
+fn shadow(section: &SectionPolytope<3>) -> f64 {
     let points: Vec<Vector<2>> = section.vertices().iter().map(|v| Vector([v[0], v[1]])).collect();
     let hull = Polytope::from_points(&points).unwrap();
     // Shoelace formula over the edges, which come with outward normals.
@@ -77,15 +76,31 @@ fn shadow_of_section(polytope: &Polytope<4>, slice: &Slice<4>) -> f64 {
         .sum()
 }
 
+/// Cuts by the hyperplane in which the last coordinate is zero.
+fn cut<const N: usize, const M: usize>(polytope: &SectionPolytope<N>) -> SectionPolytope<M> {
+    polytope.section(&SliceFrame::new(Pose::IDENTITY))
+}
+
+/// The picture of a polytope beside the exact section, which is cut from its face lattice, one hidden axis after the other.
+fn area_is_exact<const N: usize>(name: &str, offset: f64, section: impl Fn(&SectionPolytope<N>) -> SectionPolytope<3>) {
+    let polytope = regular::polytope::<N>(name, regular::Size::Circumradius(1.7)).unwrap();
+    let place = Vector::from_fn(|i| [0.1, 0.2, -0.1, offset, -0.5 * offset, 0.3 * offset][i]);
+    let slice = Slice::<N>::new(Pose::new(turned(0.8), place));
+    let exact = shadow(&section(&SectionPolytope::from_polytope(&polytope).placed(&slice.pose().inverse())));
+    let world = world_of(Shape::polytope(Arc::new(polytope)).unwrap(), Pose::IDENTITY);
+    let area = covered(&world, &slice).into_iter().filter(|&pixel| pixel).count() as f64 * PIXEL * PIXEL;
+    assert!(exact > 1.0, "{name} in {N}D: the slice cuts it in {exact} m² only, which proves little");
+    assert!((area / exact - 1.0).abs() < 0.01, "{name} in {N}D: {area} m² instead of {exact} m²");
+}
+
 #[test]
 fn sections_of_polytopes_have_the_exact_area() {
     for (name, offset) in [("8-cell", 0.2), ("24-cell", 0.3), ("16-cell", 0.25), ("5-cell", 0.1), ("120-cell", 0.5)] {
-        let polytope = regular::polytope::<4>(name, regular::Size::Circumradius(1.7)).unwrap();
-        let slice = Slice::<4>::new(Pose::new(turned(0.8), Vector([0.1, 0.2, -0.1, offset])));
-        let exact = shadow_of_section(&polytope, &slice);
-        let world = world_of(Shape::polytope(Arc::new(polytope)).unwrap(), Pose::IDENTITY);
-        let area = covered(&world, &slice).into_iter().filter(|&pixel| pixel).count() as f64 * PIXEL * PIXEL;
-        assert!((area / exact - 1.0).abs() < 0.01, "{name}: {area} m² instead of {exact} m²");
+        area_is_exact::<4>(name, offset, cut);
+    }
+    for (name, offset) in [("cube", 0.2), ("cross-polytope", 0.15), ("simplex", 0.1)] {
+        area_is_exact::<5>(name, offset, |polytope| cut(&cut::<5, 4>(polytope)));
+        area_is_exact::<6>(name, offset, |polytope| cut(&cut::<5, 4>(&cut::<6, 5>(polytope))));
     }
 }
 
