@@ -30,6 +30,18 @@ impl Camera {
         let eye = target + (outward * cos_elevation + up * sin_elevation) * distance;
         Self { eye, target, up, field_of_view: 0.6 }
     }
+
+    /// The camera farther to the right, so that what was in the middle of the picture is in the middle of what a share of its
+    /// width at the right edge leaves free. `aspect` is width over height.
+    #[must_use]
+    pub fn with_room(mut self, share: f64, aspect: f64) -> Self {
+        let forward = self.target - self.eye;
+        let right = cross(forward, self.up).normalize_or_zero();
+        let half_width = forward.norm() * scalar::tan(0.5 * self.field_of_view) * aspect;
+        self.eye += right * (share * half_width);
+        self.target += right * (share * half_width);
+        self
+    }
 }
 
 /// The unit vector of the part of `v` across `up`.

@@ -63,6 +63,7 @@ pub use error::RenderError;
 pub use film::{Film, FilmFormat};
 pub use framing::{frame_all, frame_bodies};
 pub use image::Image;
+pub use overlay::strips_share;
 pub use picture::{Settings, render};
 pub use sheet::Sheet;
 pub use slice::Slice;

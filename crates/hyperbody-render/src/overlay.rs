@@ -11,6 +11,20 @@ use crate::text;
 
 const INK: [u8; 3] = [38, 44, 58];
 
+/// Measures of a strip, in pixels of a picture 720 pixels high: its width, and the gaps to the next one and to the edge.
+const STRIP: f32 = 96.0;
+const GAP: f32 = 10.0;
+const BORDER: f32 = 20.0;
+
+/// The share of a picture's width that the strips of its hidden directions take up at its right edge. Bodies behind them are
+/// hard to see: [`Camera::with_room`](crate::Camera::with_room) makes room.
+#[must_use]
+pub fn strips_share(dimension: usize, width: u32, height: u32) -> f64 {
+    let strips = dimension.saturating_sub(3) as f32;
+    let taken = if strips > 0.0 { BORDER + strips * (STRIP + GAP) } else { 0.0 };
+    f64::from(taken * height as f32 / 720.0 / width as f32).min(0.5)
+}
+
 pub(crate) fn draw<const N: usize>(image: &mut Image, stage: &Stage<N>, settings: &Settings) {
     let unit = image.height() as f32 / 720.0;
     if settings.strip {
@@ -37,9 +51,9 @@ fn strip<const N: usize>(image: &mut Image, stage: &Stage<N>, hidden: usize, uni
         return;
     }
     let reach = bars.iter().flat_map(|(_, extent)| extent).fold(stage.size, |reach, end| reach.max(end.abs())) * 1.08;
-    let width = (96.0 * unit) as i64;
+    let width = (STRIP * unit) as i64;
     let (top, bottom) = ((24.0 * unit) as i64, i64::from(image.height()) - (24.0 * unit) as i64);
-    let right = i64::from(image.width()) - (20.0 * unit) as i64 - (hidden as i64 - 3) * (width + (10.0 * unit) as i64);
+    let right = i64::from(image.width()) - (BORDER * unit) as i64 - (hidden as i64 - 3) * (width + (GAP * unit) as i64);
     let left = right - width;
     panel(image, [left, top, right, bottom], (10.0 * unit) as i64);
     let middle = 0.5 * (top + bottom) as f64;

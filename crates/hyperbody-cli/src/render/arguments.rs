@@ -10,7 +10,7 @@ use crate::arguments::seconds;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Pictures:\n  \
-    hyperbody render dice4d -o dice.png                      three seconds into the scene, cut at w = 0\n  \
+    hyperbody render dice4d -o dice.png                      after three seconds, cut at w = 0\n  \
     hyperbody render dice4d -o dice.png --at 1 --slice w=0.5 another moment, another slice\n  \
     hyperbody render pit4d -o turned.png --turn xw=30        a slice turned by 30° from x towards w\n  \
     hyperbody render pyramid3d -o front.png --camera 0,10    seen from the front, 10° from above\n\n\
@@ -75,7 +75,7 @@ pub(crate) struct RenderArguments {
     /// Where the eye is: degrees around the vertical, degrees above the horizon, and if wanted the distance in metres
     #[arg(long, value_name = "AROUND,ABOVE[,DISTANCE]", value_parser = numbers, allow_hyphen_values = true)]
     pub(crate) camera: Option<Numbers>,
-    /// What is in the middle of the picture, in coordinates of the slice
+    /// What is in the middle of the picture, beside the strips, in coordinates of the slice
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers, allow_hyphen_values = true)]
     pub(crate) look_at: Option<Numbers>,
     /// Angle from the lower to the upper edge, in degrees

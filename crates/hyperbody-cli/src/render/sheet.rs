@@ -54,7 +54,7 @@ pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut 
     let frames = timeline.moments(&ordered)?;
     let sights: Vec<Sight> =
         frames.into_iter().zip(&order).map(|(frame, &index)| (frame, views[index].slice(0.0))).collect();
-    let camera = view.camera(timeline, &sights)?;
+    let camera = views[0].camera(timeline, &sights)?;
     let drawing = Drawing::new(view, count);
     for ((frame, _), &index) in sights.iter().zip(&order) {
         canvas.place(index as u32, &drawing.picture(&views[index], timeline, frame, 0.0, &camera)?)?;

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use hyperbody::math::{Dim, EvenAlgebra, Vector, planes, scalar};
 use hyperbody_render::picture::parts;
-use hyperbody_render::{Camera, Image, Settings, Slice, frame_all, render as draw};
+use hyperbody_render::{Camera, Image, Settings, Slice, frame_all, render as draw, strips_share};
 use hyperbody_scene::recording::Frame;
 use hyperbody_scene::{DimensionVisitor, visit_dimension};
 
@@ -170,6 +170,13 @@ impl<'a> View<'a> {
         }
     }
 
+    /// The share of the width that strips take up, and width over height.
+    fn room(&self, dimension: usize) -> (f64, f64) {
+        let (width, height) = self.size;
+        let share = if self.strip { strips_share(dimension, width, height) } else { 0.0 };
+        (share, f64::from(width) / f64::from(height))
+    }
+
     /// The camera for all of these.
     pub(super) fn camera(&self, timeline: &Timeline, sights: &[Sight]) -> Result<Camera, Failure> {
         visit_dimension(timeline.dimension(), ChooseCamera { view: self, timeline, sights })
@@ -330,8 +337,8 @@ impl DimensionVisitor for ChooseCamera<'_> {
         for (frame, slice) in self.sights {
             sights.push((self.timeline.bodies::<N>(frame)?, slice.in_dimension::<N>()));
         }
-        let (width, height) = self.view.size;
-        Ok(self.view.adjusted(frame_all(&sights, f64::from(width) / f64::from(height))))
+        let (share, aspect) = self.view.room(N);
+        Ok(self.view.adjusted(frame_all(&sights, aspect * (1.0 - share))))
     }
 }
 
@@ -365,6 +372,8 @@ impl DimensionVisitor for Draw<'_> {
             threads: self.view.threads,
             ..Settings::default()
         };
-        Ok(draw(&bodies, &self.slice.in_dimension::<N>(), Some(self.camera), &settings, self.tell)?)
+        let (share, aspect) = self.view.room(N);
+        let camera = self.camera.with_room(share, aspect);
+        Ok(draw(&bodies, &self.slice.in_dimension::<N>(), Some(&camera), &settings, self.tell)?)
     }
 }

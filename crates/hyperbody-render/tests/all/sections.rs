@@ -7,7 +7,7 @@ use hyperbody::geometry::section::{SectionPolytope, SliceFrame};
 use hyperbody::geometry::{Polytope, regular};
 use hyperbody::math::{Bivector, Pose, Rotation, Vector};
 use hyperbody::prelude::{BodyDef, BodyKind, Shape, World, WorldDef};
-use hyperbody_render::{Bodies, Camera, Settings, Slice, frame_all, frame_bodies, render};
+use hyperbody_render::{Bodies, Camera, Settings, Slice, frame_all, frame_bodies, render, strips_share};
 
 /// A rotation in every plane, by the same rule in every dimension.
 fn turned<const N: usize>(scale: f64) -> Rotation<N> {
@@ -206,6 +206,19 @@ fn everything_is_in_view<const N: usize>() {
 fn a_film_has_everything_in_view() {
     everything_is_in_view::<2>();
     everything_is_in_view::<3>();
+}
+
+#[test]
+fn a_camera_makes_room_at_the_right_edge() {
+    let camera = far_camera();
+    // A quarter of the width is taken: the middle of the rest is at three eighths, which is −1/4 of the way to the edge.
+    let place = in_picture(&camera.with_room(0.25, 1.0), camera.target);
+    assert!((place[0] + 0.25).abs() < 1e-9 && place[1].abs() < 1e-9, "{place:?}");
+    assert_eq!(strips_share(3, 1280, 720), 0.0, "three dimensions have nothing to hide");
+    for dimension in 4..=6 {
+        assert!((strips_share(dimension, 1280, 720) - strips_share(dimension, 640, 360)).abs() < 1e-6);
+        assert!(strips_share(dimension, 1280, 720) > strips_share(dimension - 1, 1280, 720));
+    }
 }
 
 #[test]
