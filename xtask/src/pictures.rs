@@ -83,8 +83,8 @@ const MOMENTS: [(&str, &str); 15] = [
     ("ramp4d", "--at 1.1 --turn zw=90"),
     ("tumble4d", "--at 2.3"),
     // Ten of the twenty pins stand in the face of the tetrahedron that this slice runs along.
-    ("bowling4d", "--at 0.92 --turn xw=-18.435 --camera -40,24"),
-    ("pendulum4d", "--at 1"),
+    ("bowling4d", "--at 0.92 --turn xw=-18.435 --camera -40,24,6 --look-at 1.4,0.6,0.4"),
+    ("pendulum4d", "--at 1 --camera 34,17,5.6 --look-at -0.6,2.95,0"),
     // Half of the cubes of each cloud are there on the positive sides of w and v.
     ("clouds5d", "--at 1.4 --slice w=0.7,v=0.7"),
     ("balls6d", "--at 1.5"),
