@@ -10,7 +10,7 @@ use hyperbody_math::Vector;
 
 use crate::World;
 use crate::narrow_phase::moved;
-use crate::pairs::{Pair, PairRole};
+use crate::pairs::{Pair, PairRole, Surface};
 use crate::world::Collider;
 
 impl<const N: usize> World<N> {
@@ -135,9 +135,9 @@ impl<const N: usize> World<N> {
         if a.body == b.body || !self.may_pair(a.body, b.body) {
             return None;
         }
-        let bounces = body_a.material.combined_restitution(&body_b.material) > 0.0;
+        let surface = Surface::of(&body_a.material, &body_b.material);
         let role = PairRole::of(body_a, body_b);
-        Some(Pair::new((collider_a, a.body), (collider_b, b.body), role, bounces))
+        Some(Pair::new((collider_a, a.body), (collider_b, b.body), role, surface))
     }
 }
 

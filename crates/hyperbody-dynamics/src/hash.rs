@@ -3,6 +3,7 @@
 use hyperbody_math::Vector;
 
 use crate::World;
+use crate::pairs::Passage;
 
 /// Fowler–Noll–Vo 1a, 64 bits, over whole words (G. Fowler, L. Noll, K.-P. Vo, 1991), with a final mix so that
 /// the last words reach every bit.
@@ -51,6 +52,9 @@ impl<const N: usize> World<N> {
         }
         for pair in self.pairs.iter() {
             hasher.word(u64::from(pair.collider_a) << 32 | u64::from(pair.collider_b));
+            if pair.overlaps || pair.passage != Passage::Apart {
+                hasher.word(u64::from(pair.overlaps) | (pair.passage as u64) << 1);
+            }
             let Some(contact) = &pair.contact else { continue };
             for (point, impulse) in contact.manifold.points().iter().zip(&contact.normal_impulses) {
                 hasher.number(point.separation);

@@ -32,7 +32,13 @@ impl<const N: usize> World<N> {
                 }
                 None => span.turn(body, solved, &change[N..], &displacement[N..]),
             }
+            let spin = body.angular_velocity.norm();
             finish(body, &self.tuning, self.dt);
+            let turned = spin.max(body.angular_velocity.norm()) * body.radius * self.dt;
+            let went = body.centre.distance(before.0) + turned;
+            if went > self.tuning.speculative_distance.max(body.core_radius) {
+                self.continuous.fast.push(solved.slot);
+            }
             if !body.state_is_sound() {
                 body.quarantine(before);
                 self.wake_requests.push(solved.slot);
@@ -99,6 +105,7 @@ impl Span {
 fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
     body.force = Vector::ZERO;
     body.torque = Bivector::ZERO;
+    body.pushed = false;
     body.refresh_angular_velocity();
     limit_speed(body, tuning);
     let (speed, spin) = (body.velocity.norm(), body.angular_velocity.norm());

@@ -9,7 +9,7 @@ use hyperbody_math::{Bivector, Vector};
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::joint::WORLD;
+use crate::joint::{Joint, WORLD};
 use crate::pairs::Contact;
 use crate::{BodyHandle, World};
 
@@ -180,16 +180,18 @@ impl<const N: usize> World<N> {
         held.resize(self.bodies.slot_count(), false);
         let presses = |contact: &Contact<N>| contact.step_impulses.iter().any(|&impulse| impulse > 0.0);
         let pressed = self.pairs.iter().filter(|pair| pair.contact.as_deref().is_some_and(presses));
-        let contacts = pressed.map(|pair| (pair.body_a, pair.body_b, true));
-        let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b, false));
-        for (a, b, touch) in contacts.chain(joints) {
+        let contacts = pressed.map(|pair| (pair.body_a, pair.body_b, true, true));
+        // A slack rope holds nothing.
+        let bears = |joint: &Joint<N>| joint.step_impulse != Vector::ZERO || joint.step_twist != Bivector::ZERO;
+        let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b, false, bears(joint)));
+        for (a, b, touch, bears) in contacts.chain(joints) {
             for (body, other) in [(a, b), (b, a)] {
                 let other = self.bodies.at(other);
                 if body == WORLD || other.is_some_and(Body::is_moving) {
                     continue;
                 }
                 let root = self.islands.find(body) as usize;
-                held[root] = true;
+                held[root] |= bears;
                 if other.is_some_and(|other| other.drifts() || (touch && other.runs())) {
                     self.islands.least_slow_time[root] = 0.0;
                 }

@@ -10,20 +10,23 @@
 //! | [`filter`] | who may touch whom: groups and masks, pairs switched off |
 //! | [`rules`] | sensors, one-way bodies, a say in contacts |
 //! | [`snapshot`] | the whole state, to go back to |
-//! | [`material`] | friction, restitution, density |
+//! | [`material`] | friction, restitution, density, resistance to rolling and twisting, rules by which two combine |
 //! | [`tuning`] | every tunable number, with its reason |
 //! | `step` | the stages of one step, in order |
 //! | `steering` | kinematic bodies led from pose to pose |
 //! | `vetting` | what users set is brought within limits |
 //! | `broad_phase`, `pairs`, `narrow_phase` | who may touch whom, and where |
+//! | `seams` | ghost contacts where bodies slide from one to the next |
 //! | `islands`, `waking` | who rests together and falls asleep together; who wakes, and why |
 //! | `solver` | contacts and joints become impulses |
+//! | `continuous` | fast bodies that went through something are put back |
 //! | `integrate` | impulses and forces become motion |
 //!
 //! Data goes one way through the step; `step.rs` is its list of stages.
 
 pub mod body;
 mod broad_phase;
+mod continuous;
 pub mod error;
 pub mod events;
 pub mod filter;
@@ -39,6 +42,7 @@ mod narrow_phase;
 mod pairs;
 pub mod queries;
 pub mod rules;
+mod seams;
 pub mod snapshot;
 mod solver;
 mod steering;
@@ -55,7 +59,7 @@ pub use events::{BrokenJoint, ContactEvent, ContactPhase, Events, SensorEvent, S
 pub use filter::Groups;
 pub use handle::{BodyHandle, JointHandle};
 pub use joint::{Freedom, JointDef, JointRef, Motor, Spring};
-pub use material::Material;
+pub use material::{CombineRule, Material};
 pub use measure::Energy;
 pub use narrow_phase::ContactRef;
 pub use queries::{BodyHit, BodyProjection, BodySeparation, BodyShapeHit, Queries, QueryFilter, QueryScratch};

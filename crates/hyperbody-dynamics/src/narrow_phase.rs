@@ -10,6 +10,7 @@ use crate::body::Body;
 use crate::handle::Arena;
 use crate::pairs::{Carried, Contact, Pair, PairRole};
 use crate::rules::Hook;
+use crate::seams::{SLIDES, is_suspect};
 use crate::world::{Collider, Motion};
 use crate::{BodyHandle, World};
 
@@ -72,12 +73,21 @@ impl<const N: usize> World<N> {
             }
         }
         self.measure_contacts();
+        if self.drop_ghosts() {
+            self.measure_contacts();
+        }
     }
 
     fn measure_contacts(&mut self) {
         self.max_penetration = 0.0;
         self.contact_count = 0;
-        for pair in self.pairs.iter() {
+        self.seams.suspects.clear();
+        for (slot, pair) in self.pairs.slots().iter().enumerate() {
+            let Some(pair) = pair else { continue };
+            if pair.suspect {
+                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+                self.seams.suspects.push(slot as u32);
+            }
             self.contact_count += usize::from(pair.touching);
             self.max_penetration = self.max_penetration.max(pair.deepest);
         }
@@ -143,6 +153,10 @@ impl<const N: usize> Update<'_, N> {
             // Sensors notice sleepers too, and wake nobody.
             return self.sense(pair, a.way + b.way, scratch);
         }
+        // Written where it changes: of most pairs a step only reads.
+        if pair.suspect {
+            pair.suspect = false;
+        }
         if idle {
             return;
         }
@@ -152,6 +166,13 @@ impl<const N: usize> Update<'_, N> {
             self.look_closer(pair, a.way + b.way, scratch);
         } else if pair.points > 0 {
             self.carry_along(pair);
+        }
+        if pair.points > 0
+            && a.speed + b.speed > SLIDES
+            && let (Some(body_a), Some(body_b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b))
+            && is_suspect(pair, body_a, body_b)
+        {
+            pair.suspect = true;
         }
     }
 
@@ -351,6 +372,7 @@ fn meet_first<const N: usize>(
         radii: (a.rounding(), b.rounding()),
         friction: body_a.material.combined_friction(&body_b.material),
         restitution: body_a.material.combined_restitution(&body_b.material),
+        resistance: body_a.material.combined_resistance(&body_b.material),
         surface: Vector::ZERO,
         manifold: Manifold::default(),
         normal_impulses: [0.0; MAX_POINTS],

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use hyperbody_collision::{MAX_POINTS, Manifold, PairCache};
 use hyperbody_math::{Bivector, Pose, Vector};
 
+use crate::Material;
 use crate::body::Body;
 
 /// What comes of a pair that meets.
@@ -31,6 +32,22 @@ impl PairRole {
         } else {
             Self::Solid
         }
+    }
+}
+
+/// What of two surfaces in contact the solver has to know beforehand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface {
+    pub(crate) bounces: bool,
+    pub(crate) resists: bool,
+}
+
+impl Surface {
+    pub(crate) const NONE: Self = Self { bounces: false, resists: false };
+
+    pub(crate) fn of(a: &Material, b: &Material) -> Self {
+        let (rolling, twisting) = a.combined_resistance(b);
+        Self { bounces: a.combined_restitution(b) > 0.0, resists: rolling > 0.0 || twisting > 0.0 }
     }
 }
 
@@ -62,11 +79,15 @@ pub(crate) struct Pair<const N: usize> {
     /// Points of its manifold, and how many of them overlap.
     pub(crate) points: u8,
     pub(crate) touching: u8,
-    /// max(e_a, e_b) > 0.
+    /// Whether the surfaces bounce.
     pub(crate) bounces: bool,
+    /// Whether rolling or twisting is resisted.
+    pub(crate) resists: bool,
     pub(crate) role: PairRole,
     /// Of sensors: whether the two overlap.
     pub(crate) overlaps: bool,
+    /// Whether its contact approaches, as ghosts at seams do.
+    pub(crate) suspect: bool,
     /// Of one-way bodies.
     pub(crate) passage: Passage,
     pub(crate) search: Box<Search<N>>,
@@ -88,10 +109,11 @@ pub(crate) struct Search<const N: usize> {
 pub(crate) struct Contact<const N: usize> {
     /// Radii by which the colliders' cores are rounded, m.
     pub(crate) radii: (f64, f64),
-    /// √(μ_a μ_b).
+    /// Of both surfaces, by their rules.
     pub(crate) friction: f64,
-    /// max(e_a, e_b).
     pub(crate) restitution: f64,
+    /// Resistance to rolling and to twisting, m.
+    pub(crate) resistance: (f64, f64),
     /// How b's surface runs against a's, beside what the bodies say, world axes, m/s: asked for by the contact hook.
     pub(crate) surface: Vector<N>,
     /// The touching points of the last narrow phase.
@@ -102,7 +124,7 @@ pub(crate) struct Contact<const N: usize> {
     pub(crate) step_impulses: [f32; MAX_POINTS],
     /// Warm start: friction impulse on b over one substep, world frame, N·s.
     pub(crate) friction_impulse: Vector<N>,
-    /// Warm start: twisting friction impulse on b over one substep, world frame, N·m·s.
+    /// Warm start: twisting friction impulse on b over one substep, and that of resistance to rolling, world frame, N·m·s.
     pub(crate) twist_impulse: Bivector<N>,
     /// The manifold as the bodies carry it along.
     pub(crate) carried: Carried<N>,
@@ -114,7 +136,7 @@ impl<const N: usize> Pair<N> {
         (collider_a, body_a): (u32, u32),
         (collider_b, body_b): (u32, u32),
         role: PairRole,
-        bounces: bool,
+        surface: Surface,
     ) -> Self {
         Self {
             collider_a,
@@ -125,18 +147,25 @@ impl<const N: usize> Pair<N> {
             deepest: 0.0,
             points: 0,
             touching: 0,
-            bounces,
+            bounces: surface.bounces,
+            resists: surface.resists,
             role,
             overlaps: false,
+            suspect: false,
             passage: Passage::Apart,
             search: Box::new(Search { a_from_b: None, cache: PairCache::default() }),
             contact: None,
         }
     }
 
+    pub(crate) fn surface(&self) -> Surface {
+        Surface { bounces: self.bounces, resists: self.resists }
+    }
+
     /// Forgets contact and impulses, as if the two had never met.
     pub(crate) fn forget(&mut self) {
-        *self = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.role, self.bounces);
+        let surface = self.surface();
+        *self = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.role, surface);
     }
 
     /// The touching points, with their normal; empty where the two have not met.
@@ -212,6 +241,11 @@ impl<const N: usize> Pairs<N> {
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Pair<N>> {
         self.slots.iter().flatten()
+    }
+
+    /// The pair of two colliders, a < b.
+    pub(crate) fn of(&self, collider_a: u32, collider_b: u32) -> Option<&Pair<N>> {
+        self.get(*self.slot_of.get(&(collider_a, collider_b))?)
     }
 
     pub(crate) fn get(&self, slot: u32) -> Option<&Pair<N>> {

@@ -27,12 +27,14 @@ impl<const N: usize> World<N> {
         timings.narrow_phase = watch.lap();
 
         self.wake_touched();
+        self.push_woken();
         timings.islands = watch.lap();
 
         self.solve();
         timings.solver = watch.lap();
 
         self.integrate();
+        self.stop_at_impacts();
         timings.integration = watch.lap();
 
         self.fall_asleep();

@@ -33,6 +33,18 @@ impl<const N: usize> World<N> {
     }
 }
 
+impl<const N: usize> World<N> {
+    /// Pushes those on that woke since the bodies were vetted: what goes on does so from the step in which they wake.
+    pub(crate) fn push_woken(&mut self) {
+        if self.islands.nothing_changed() {
+            return;
+        }
+        for body in self.bodies.values_mut().filter(|body| body.is_moving() && !body.pushed) {
+            limit(body, &self.tuning, self.dt);
+        }
+    }
+}
+
 pub(crate) fn in_bounds<const N: usize>(position: Vector<N>) -> bool {
     position.max_abs() <= POSITION_LIMIT
 }
@@ -56,8 +68,11 @@ fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) -> bool {
     if body.kind != BodyKind::Dynamic {
         return true;
     }
-    body.force += body.steady_force;
-    body.torque += body.steady_torque;
+    if !body.pushed {
+        body.pushed = true;
+        body.force += body.steady_force;
+        body.torque += body.steady_torque;
+    }
     let acceleration = body.force * body.inverse_mass;
     let shorter = shortened(acceleration, tuning.max_speed / dt);
     if shorter != acceleration {

@@ -6,6 +6,7 @@ use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Pose, Vector};
 
 use crate::body::Body;
+use crate::continuous::{Continuous, PieceCore};
 use crate::events::Events;
 use crate::filter::IgnoredPairs;
 use crate::handle::Arena;
@@ -13,6 +14,7 @@ use crate::islands::Islands;
 use crate::joint::Joint;
 use crate::pairs::Pairs;
 use crate::rules::Hook;
+use crate::seams::Seams;
 use crate::solver::Solver;
 use crate::vetting::{POSITION_LIMIT, in_bounds};
 use crate::{
@@ -63,6 +65,8 @@ pub(crate) struct Collider<const N: usize> {
     pub(crate) world_from_collider: Pose<N>,
     /// Largest distance of a point of the piece from the origin of its frame, m; zero for half-spaces.
     pub(crate) reach: f64,
+    /// What must not pass through others.
+    pub(crate) core: PieceCore<N>,
     /// In the tree; `None` for half-spaces, which are unbounded and kept in a list.
     pub(crate) proxy: Option<u32>,
     /// The fattened box that the tree holds.
@@ -129,6 +133,9 @@ pub struct World<const N: usize> {
     pub(crate) solver: Solver<N>,
     pub(crate) scratch: Vec<Scratch<N>>,
     pub(crate) tree_stack: Vec<u32>,
+    pub(crate) seams: Seams<N>,
+    /// Buffers of the sweeps.
+    pub(crate) continuous: Continuous<N>,
     /// Buffer of the broad phase.
     pub(crate) new_pairs: Vec<(u32, u32)>,
 }
@@ -198,6 +205,8 @@ impl<const N: usize> World<N> {
             solver: Solver::new(),
             scratch: (0..def.threads).map(|_| Scratch::default()).collect(),
             tree_stack: Vec::new(),
+            seams: Seams::default(),
+            continuous: Continuous::default(),
             new_pairs: Vec::new(),
         })
     }
@@ -243,6 +252,8 @@ impl<const N: usize> World<N> {
                 (Aabb { lower: Vector::ZERO, upper: Vector::ZERO }, None)
             }
         };
+        let core = PieceCore::of(&piece);
+        body.core_radius = body.core_radius.min(core.radius);
         let reach = match &piece {
             Piece::Convex(convex) => convex.bounding_radius(),
             Piece::HalfSpace { .. } => 0.0,
@@ -253,6 +264,7 @@ impl<const N: usize> World<N> {
             body_from_collider,
             world_from_collider,
             reach,
+            core,
             proxy,
             fat_aabb,
             moved: true,

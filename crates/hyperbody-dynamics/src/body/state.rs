@@ -87,6 +87,8 @@ pub(crate) struct Body<const N: usize> {
     pub(crate) centre_in_body: Vector<N>,
     /// Largest distance of a point of the body from its centre of mass, m: turns spin into speed.
     pub(crate) radius: f64,
+    /// Least radius of a core of its pieces, m: going farther in a step, it might pass through something.
+    pub(crate) core_radius: f64,
 
     /// Centre of mass in the world, m.
     pub(crate) centre: Vector<N>,
@@ -102,6 +104,8 @@ pub(crate) struct Body<const N: usize> {
     /// Pushes of the user until the end of the next step, world frame, N and N·m.
     pub(crate) force: Vector<N>,
     pub(crate) torque: Bivector<N>,
+    /// Whether those that go on have been added for the running step.
+    pub(crate) pushed: bool,
 
     /// Pushes that go on from step to step, world frame, N and N·m.
     pub(crate) steady_force: Vector<N>,
@@ -179,6 +183,7 @@ impl<const N: usize> Body<N> {
             inertia,
             centre_in_body,
             radius: 0.0,
+            core_radius: f64::INFINITY,
             centre: def.position + def.rotation.rotate(centre_in_body),
             rotation: def.rotation,
             velocity,
@@ -186,6 +191,7 @@ impl<const N: usize> Body<N> {
             angular_momentum,
             force: Vector::ZERO,
             torque: Bivector::ZERO,
+            pushed: false,
             steady_force: Vector::ZERO,
             steady_torque: Bivector::ZERO,
             surface_velocity: def.surface_velocity,

@@ -32,7 +32,7 @@ use crate::BodyKind;
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::Joint;
-use crate::pairs::{Contact, Pairs};
+use crate::pairs::{Contact, Pair, Pairs, Surface};
 use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
@@ -186,8 +186,8 @@ impl<const N: usize> Solver<N> {
 
     fn make_rows(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
-        let bounces = |pair: u32| input.pairs.get(pair).is_some_and(|pair| pair.bounces);
-        self.contacts.allocate(&self.colours.groups, &self.active, bounces, &self.bodies);
+        let surface = |pair: u32| input.pairs.get(pair).map_or(Surface::NONE, Pair::surface);
+        self.contacts.allocate(&self.colours.groups, &self.active, surface, &self.bodies);
         let prepare = Prepare {
             soft: Softness::new(tuning.contact_hz, tuning.contact_damping_ratio, h),
             stiff: Softness::new(2.0 * tuning.contact_hz, tuning.contact_damping_ratio, h),

@@ -1,5 +1,6 @@
 //! Every integration test of hyperbody-dynamics in one program: engine code generic in the dimension is compiled once for all of them.
 
+mod bullets;
 mod common;
 mod contact_table;
 mod events;
@@ -14,10 +15,12 @@ mod free_top_stability;
 mod free_top_step;
 mod joint_hand;
 mod joint_kinds;
+mod materials;
 mod queries;
 mod queries_shapes;
 mod random_operations;
 mod robustness;
+mod seams;
 mod snapshot;
 mod stacks_and_piles;
 mod steering;

@@ -1,7 +1,8 @@
 //! Kinematic bodies led from pose to pose, conveyors, and forces that go on.
 
 use super::common::{add_floor, assert_close, ball, cuboid, down, material, run, world};
-use hyperbody_dynamics::{BodyDef, BodyKind, World, WorldDef, WorldErrorKind};
+use hyperbody_dynamics::{BodyDef, BodyKind, JointDef, World, WorldDef, WorldErrorKind};
+use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
 /// A plate led along a circle and turned carries a box by friction, is at each pose exactly, and rests when it is left alone.
@@ -129,4 +130,47 @@ fn what_is_pushed_or_carried_slowly_does_not_fall_asleep() {
     run(&mut world, 4.0);
     let way = world.body(load).unwrap().position()[0];
     assert!((way - 0.12).abs() < 0.01, "the belt carried its load by {way} m");
+}
+
+/// Pressed against a wall and asleep; in the step in which something wakes it, it presses as before.
+fn pressed_on<const N: usize>() {
+    let mut space = World::<N>::new(WorldDef { gravity: Vector::ZERO, ..WorldDef::default() }).unwrap();
+    let smooth = material(0.0, 0.0);
+    let wall = BodyDef::fixed(Shape::half_space(Vector::unit(0), 0.0).unwrap()).material(smooth);
+    let wall = space.add_body(wall).unwrap();
+    let def = BodyDef::new(cuboid(Vector::splat(0.5))).position(Vector::unit(0) * 0.5).mass(1.0).material(smooth);
+    let body = space.add_body(def).unwrap();
+    space.body_mut(body).unwrap().set_steady_force(Vector::unit(0) * -6.0, Bivector::ZERO).unwrap();
+    run(&mut space, 2.0);
+    assert!(space.body(body).unwrap().is_sleeping());
+    let above = Vector::unit(0) * 0.5 + Vector::unit(1) * 1.5;
+    let shot = BodyDef::new(ball(0.2)).position(above).velocity(Vector::unit(1) * -3.0).mass(0.1).material(smooth);
+    space.add_body(shot).unwrap();
+    for _ in 0..60 {
+        space.step();
+        if space.events().woken().contains(&body) {
+            let events = space.events().contacts();
+            let pressed = events.iter().find(|event| event.bodies == (wall, body)).map_or(0.0, |event| event.impulse);
+            assert_close("impulse on the wall in the step of waking", pressed, 6.0 * space.dt(), 0.05);
+            return;
+        }
+    }
+    panic!("nothing woke the body");
+}
+
+#[test]
+fn a_steady_force_does_not_miss_the_step_of_waking() {
+    pressed_on::<2>();
+    pressed_on::<4>();
+}
+
+/// In weak gravity, on a rope that is still slack: it goes on falling.
+#[test]
+fn a_slack_rope_is_no_support() {
+    let gravity = Vector::unit(1) * -0.01;
+    let mut world = World::<3>::new(WorldDef { gravity, ..WorldDef::default() }).unwrap();
+    let load = world.add_body(BodyDef::new(ball(0.1)).position(Vector::unit(0) * 0.1)).unwrap();
+    world.add_joint(JointDef::rope(None, load, Vector::ZERO, Vector::ZERO, 1.0)).unwrap();
+    run(&mut world, 3.0);
+    assert_close("way fallen", -world.body(load).unwrap().position()[1], 0.5 * 0.01 * 9.0, 0.02);
 }

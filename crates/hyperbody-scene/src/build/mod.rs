@@ -161,7 +161,7 @@ pub(crate) fn materials(scene: &Scene) -> Result<BTreeMap<&str, Material>> {
         if seen.insert(named.name.as_str(), index).is_some() {
             return Err(SceneError::value(path, "stands twice; names have to differ"));
         }
-        let Material { friction, restitution, density } = named.material;
+        let Material { friction, restitution, density, .. } = named.material;
         let refuse = |key: &str, value: f64, expected: &str| {
             Err(SceneError::value(format!("{path}.{key}"), format!("is {value:?}, expected {expected}")))
         };

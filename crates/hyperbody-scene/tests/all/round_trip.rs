@@ -27,7 +27,8 @@ fn everything() -> Scene {
     scene.dt = 1.0 / 240.0;
     scene.substeps = 7;
     scene.sleeping = false;
-    let material = hyperbody::prelude::Material { friction: 0.7, restitution: 0.25, density: 1e-3 };
+    let material =
+        hyperbody::prelude::Material { friction: 0.7, restitution: 0.25, density: 1e-3, ..Default::default() };
     scene.materials = vec![NamedMaterial { name: "ice".to_owned(), material }];
     let mut body = Body::new(ShapeSpec::ball(0.5)).named("a").at([1.0, 2.0, 3.0, 4.0]).moving([0.5, 0.0, 0.0, -0.0]);
     body = body.spinning("wx", 1.5).spinning("zw", -0.25).weighing(2.5).made_of("ice").coloured([1.0, 0.5, 0.0]);

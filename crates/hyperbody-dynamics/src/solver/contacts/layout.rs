@@ -4,7 +4,7 @@ use super::Block;
 use crate::solver::bodies::Sizes;
 
 /// Positions, in lanes, inside a block: header, sliding rows, their mass matrix, twisting rows, the field of the normal
-/// rows, the points, and the response matrix of those.
+/// rows, the points, the response matrix of those, and what resists rolling and twisting.
 pub(crate) struct Layout<const N: usize>;
 
 impl<const N: usize> Layout<N> {
@@ -62,16 +62,23 @@ impl<const N: usize> Layout<N> {
     pub(crate) const POINT_LEVER: usize = 4;
     pub(crate) const POINT_ROW: usize = 4 + Self::SLIDES;
 
+    // Resistance: the two lengths, the mass of rolling, and the impulses of rolling along the slopes of the field.
+    pub(crate) const ROLLING: usize = 0;
+    pub(crate) const TWISTING: usize = 1;
+    pub(crate) const ROLLING_MASS: usize = 2;
+    pub(crate) const ROLLING_IMPULSES: usize = 3;
+    const RESISTANCE_LEN: usize = 3 + Self::SLIDES;
+
     /// First row of the normal field.
     #[inline(always)]
     pub(crate) fn field_start(block: &Block) -> usize {
         Self::TWIST_ROWS + block.twists * Self::TWIST_ROW
     }
 
-    /// Rows of the normal field: a single point stands at the centre.
+    /// Rows of the normal field: a single point stands at the centre. Its slopes are the rows of rolling, too.
     #[inline(always)]
     pub(crate) fn field_rows(block: &Block) -> usize {
-        if block.points > 1 { N } else { 1 }
+        if block.points > 1 || block.resists { N } else { 1 }
     }
 
     /// First point.
@@ -86,9 +93,15 @@ impl<const N: usize> Layout<N> {
         Self::points_start(block) + block.points * Self::POINT_ROW
     }
 
+    /// First of the numbers of resistance, where there is any.
+    #[inline(always)]
+    pub(crate) fn resistance_start(block: &Block) -> usize {
+        Self::response_start(block) + block.points * (block.points + 1) / 2
+    }
+
     /// Lanes of a whole block.
     #[inline(always)]
     pub(crate) fn block_len(block: &Block) -> usize {
-        Self::response_start(block) + block.points * (block.points + 1) / 2
+        Self::resistance_start(block) + if block.resists { Self::RESISTANCE_LEN } else { 0 }
     }
 }

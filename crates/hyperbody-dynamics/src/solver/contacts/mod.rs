@@ -3,7 +3,8 @@
 //! A manifold has one row per point along the normal, which only pushes, and at the centre of its points N − 1 rows of
 //! sliding friction and (N−1)(N−2)/2 of twisting friction: sliding stays in the ball of radius μ·Σλ in the tangent space,
 //! twisting within what the points give against a twist in its direction. Neither depends on the choice of axes, so that
-//! a scene turned by any rotation moves turned. With friction once a manifold, a tesseract's facet on another costs
+//! a scene turned by any rotation moves turned. Resistance to rolling and twisting (`material.rs`) is a torque within a ball of
+//! its own, along the slopes of the normal field and the twisting rows. With friction once a manifold, a tesseract's facet on another costs
 //! 8 + 6 rows instead of 32.
 //!
 //! The rows of a group are lanes side by side in one flat array, in the order in which solving reads them.
@@ -17,6 +18,7 @@ mod solve;
 use super::bodies::SolverBody;
 use super::colours::{ActiveContact, Group};
 use super::lanes::{Lanes, WIDTH};
+use crate::pairs::Surface;
 pub(crate) use layout::Layout;
 pub(crate) use prepare::{Prepare, store};
 pub(crate) use solve::{PassTimes, Passes};
@@ -28,10 +30,12 @@ pub(crate) struct Block {
     pub(crate) start: usize,
     /// Normal rows: the most points of any of its contacts.
     pub(crate) points: usize,
-    /// Twisting rows: (N−1)(N−2)/2, or none where no contact has two points.
+    /// Twisting rows: (N−1)(N−2)/2, or none where no contact has two points or resists.
     pub(crate) twists: usize,
     /// Whether any of its contacts bounces.
     pub(crate) bounces: bool,
+    /// Whether any of its contacts resists rolling or twisting.
+    pub(crate) resists: bool,
     pub(crate) bodies_a: [u32; WIDTH],
     pub(crate) bodies_b: [u32; WIDTH],
     /// Active contacts, [`Group::EMPTY`] in unused lanes.
@@ -53,7 +57,7 @@ impl ContactRows {
         &mut self,
         groups: &[Group],
         contacts: &[ActiveContact],
-        bounces: impl Fn(u32) -> bool,
+        surface: impl Fn(u32) -> Surface,
         bodies: &[SolverBody<N>],
     ) {
         self.blocks.clear();
@@ -64,6 +68,7 @@ impl ContactRows {
                 points: 0,
                 twists: 0,
                 bounces: false,
+                resists: false,
                 bodies_a: [0; WIDTH],
                 bodies_b: [0; WIDTH],
                 contacts: group.contacts,
@@ -74,11 +79,13 @@ impl ContactRows {
                 }
                 let contact = &contacts[index as usize];
                 block.points = block.points.max(usize::from(contact.points));
-                block.bounces |= bounces(contact.pair);
+                let surface = surface(contact.pair);
+                block.bounces |= surface.bounces;
+                block.resists |= surface.resists;
                 block.bodies_a[lane] = writable(bodies, contact.body_a);
                 block.bodies_b[lane] = writable(bodies, contact.body_b);
             }
-            if block.points > 1 {
+            if block.points > 1 || block.resists {
                 block.twists = Layout::<N>::TWISTS;
             }
             start += Layout::<N>::block_len(&block);

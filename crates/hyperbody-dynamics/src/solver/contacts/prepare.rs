@@ -64,6 +64,9 @@ impl Prepare {
         }
         lane.field(contact, centre, &tangents, block);
         lane.points(contact, centre, &tangents, block);
+        if block.resists {
+            lane.resistance(contact, &tangents, block);
+        }
     }
 }
 
@@ -183,20 +186,39 @@ impl<const N: usize> Lane<'_, N> {
                 row += 1;
             }
         }
+        let mass = self.mass_of_turning(row, |index| Layout::<N>::TWIST_ROWS + index * Layout::<N>::TWIST_ROW);
+        self.set(Layout::<N>::TWIST_MASS, mass);
+    }
+
+    /// Inverse of a bound on the largest eigenvalue of the response matrix of rows whose arms stand at the given positions.
+    fn mass_of_turning(&self, rows: usize, place: impl Fn(usize) -> usize) -> f64 {
         let (mut trace, mut trace_of_square) = (0.0, 0.0);
-        for s in 0..row {
-            for t in 0..row {
-                let row = |index: usize| Layout::<N>::TWIST_ROWS + index * Layout::<N>::TWIST_ROW;
-                let response = self.response_of_arms(row(s), row(t));
+        for s in 0..rows {
+            for t in 0..rows {
+                let response = self.response_of_arms(place(s), place(t));
                 trace += if s == t { response } else { 0.0 };
                 trace_of_square += response * response;
             }
         }
-        let count = row.max(1) as f64;
+        let count = rows.max(1) as f64;
         let mean = trace / count;
         let variance = (trace_of_square / count - mean * mean).max(0.0);
         let largest = mean + (variance * (count - 1.0)).sqrt();
-        self.set(Layout::<N>::TWIST_MASS, if largest > 0.0 { 1.0 / largest } else { 0.0 });
+        if largest > 0.0 { 1.0 / largest } else { 0.0 }
+    }
+
+    /// Rolling rows are the slopes of the normal field: the planes of the normal and each tangent.
+    fn resistance(&mut self, contact: &Contact<N>, tangents: &[Vector<N>; N], block: &Block) {
+        let start = Layout::<N>::resistance_start(block);
+        let slope = |t: usize| Layout::<N>::field_start(block) + (t + 1) * Layout::<N>::FIELD_ROW;
+        self.set(start + Layout::<N>::ROLLING, contact.resistance.0);
+        self.set(start + Layout::<N>::TWISTING, contact.resistance.1);
+        let mass = self.mass_of_turning(Layout::<N>::SLIDES, slope);
+        self.set(start + Layout::<N>::ROLLING_MASS, mass);
+        for t in 0..Layout::<N>::SLIDES {
+            let plane = Bivector::wedge(tangents[t], contact.manifold.normal);
+            self.set(start + Layout::<N>::ROLLING_IMPULSES + t, contact.twist_impulse.dot(&plane));
+        }
     }
 
     /// The field of the normal rows: at the centre, and along the tangents.
@@ -284,6 +306,12 @@ pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, 
                 contact.twist_impulse += Bivector::wedge(tangents[s], tangents[t]) * value(at);
                 row += 1;
             }
+        }
+    }
+    if block.resists {
+        let start = Layout::<N>::resistance_start(block) + Layout::<N>::ROLLING_IMPULSES;
+        for t in 0..Layout::<N>::SLIDES {
+            contact.twist_impulse += Bivector::wedge(tangents[t], contact.manifold.normal) * value(start + t);
         }
     }
     let start = Layout::<N>::points_start(block);

@@ -56,6 +56,13 @@ impl<const N: usize> Passes<N> {
                 add_at(&mut sum, row[Layout::<N>::POINT_IMPULSE], &row[Layout::<N>::POINT_LEVER..]);
             }
             Self::apply_to_field(block, head, &sum, &mut p);
+            if block.resists {
+                let resistance = &rows[Layout::<N>::resistance_start(block)..];
+                let impulses = &resistance[Layout::<N>::ROLLING_IMPULSES..];
+                for (row, impulse) in Self::field(block, head).skip(1).zip(impulses) {
+                    p.apply_angular(row, *impulse);
+                }
+            }
             p.scatter(block, state);
         }
     }
@@ -68,12 +75,13 @@ impl<const N: usize> Passes<N> {
             let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
             let mut p = Pairing::<N>::gather(block, rows, state);
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
-            let (points, response) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
+            let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
+            let (response, resistance) = rest.split_at_mut(block.points * (block.points + 1) / 2);
             let displacement = Pairing::<N>::gather_displacement(block, head, state);
             // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
             // load, so that a sliding body loses exactly μ times its weight.
             if times.push {
-                Self::rub(block, head, points, &mut p, times);
+                Self::rub(block, head, points, resistance, &mut p, times);
             }
             Self::pose(block, head, points, &p, times, &displacement, problem);
             Self::press(block, head, points, response, &mut p, problem);
@@ -82,27 +90,77 @@ impl<const N: usize> Passes<N> {
                     let impulse = row[Layout::<N>::POINT_IMPULSE];
                     row[Layout::<N>::POINT_STEP_IMPULSE] += impulse;
                 }
-                Self::rub(block, head, points, &mut p, times);
+                Self::rub(block, head, points, resistance, &mut p, times);
             }
             p.scatter(block, state);
         }
     }
 
     #[inline(always)]
-    fn rub(block: &Block, head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
+    fn rub(
+        block: &Block,
+        head: &mut [Lanes],
+        points: &[Lanes],
+        resistance: &mut [Lanes],
+        p: &mut Pairing<N>,
+        times: &PassTimes,
+    ) {
         Self::slide(head, points, p, times);
         if block.twists > 0 {
-            Self::twist(head, points, p, times);
+            let resisted = block.resists.then(|| resistance[Layout::<N>::TWISTING] * Self::load(points));
+            Self::twist(head, points, resisted, p, times);
+        }
+        if block.resists {
+            Self::roll(block, head, points, resistance, p, times);
+        }
+    }
+
+    /// Sum of the impulses of the points.
+    #[inline(always)]
+    fn load(points: &[Lanes]) -> Lanes {
+        let mut load = Lanes::ZERO;
+        for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
+            load += row[Layout::<N>::POINT_IMPULSE];
+        }
+        load
+    }
+
+    /// Resistance to rolling: within the ball of radius c·Σλ in the planes of the normal and the tangents, against the turn.
+    #[inline(always)]
+    fn roll(
+        block: &Block,
+        head: &[Lanes],
+        points: &[Lanes],
+        resistance: &mut [Lanes],
+        p: &mut Pairing<N>,
+        times: &PassTimes,
+    ) {
+        let limit = resistance[Layout::<N>::ROLLING] * Self::load(points);
+        let mass = resistance[Layout::<N>::ROLLING_MASS];
+        let impulses = &mut resistance[Layout::<N>::ROLLING_IMPULSES..];
+        let elapsed = Lanes::splat(times.elapsed);
+        let inverse_limit = Lanes::splat(1.0).div(limit.max(Lanes::splat(Real::MIN_POSITIVE)));
+        let mut wanted = [Lanes::ZERO; N];
+        let mut ratio_sq = Lanes::ZERO;
+        for ((wanted, row), held) in wanted.iter_mut().zip(Self::field(block, head).skip(1)).zip(&*impulses) {
+            let rate = row[Layout::<N>::FIELD_VELOCITY]
+                + elapsed * row[Layout::<N>::FIELD_ACCELERATION]
+                + p.measure_angular(row);
+            *wanted = *held - mass * rate;
+            let ratio = *wanted * inverse_limit;
+            ratio_sq += ratio * ratio;
+        }
+        let factor = Lanes::splat(1.0).div(ratio_sq.sqrt().max(Lanes::splat(1.0)));
+        for ((wanted, row), held) in wanted.iter().zip(Self::field(block, head).skip(1)).zip(impulses) {
+            let impulse = *wanted * factor;
+            p.apply_angular(row, impulse - *held);
+            *held = impulse;
         }
     }
 
     #[inline(always)]
     fn slide(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
-        let mut load = Lanes::ZERO;
-        for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
-            load += row[Layout::<N>::POINT_IMPULSE];
-        }
-        let limit = head[Layout::<N>::FRICTION] * load;
+        let limit = head[Layout::<N>::FRICTION] * Self::load(points);
         let elapsed = Lanes::splat(times.elapsed);
         let slides = Layout::<N>::SLIDES;
         let (rows, masses) = head[Layout::<N>::HEADER..].split_at_mut(slides * Layout::<N>::SLIDE_ROW);
@@ -145,7 +203,7 @@ impl<const N: usize> Passes<N> {
     }
 
     #[inline(always)]
-    fn twist(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
+    fn twist(head: &mut [Lanes], points: &[Lanes], resisted: Option<Lanes>, p: &mut Pairing<N>, times: &PassTimes) {
         let (friction, mass) = (head[Layout::<N>::FRICTION], head[Layout::<N>::TWIST_MASS]);
         let elapsed = Lanes::splat(times.elapsed);
         let rows =
@@ -159,7 +217,10 @@ impl<const N: usize> Passes<N> {
             wanted[t] = row[Layout::<N>::TWIST_IMPULSE] - mass * velocity;
             largest = largest.max(wanted[t]).max(-wanted[t]);
         }
-        let limit = friction * Self::twisting_load(points, &wanted, largest);
+        let mut limit = friction * Self::twisting_load(points, &wanted, largest);
+        if let Some(resisted) = resisted {
+            limit += resisted * Self::share_of_largest(&wanted, largest);
+        }
         let factor = limit.div(largest).min(Lanes::splat(1.0));
         for (t, row) in rows.chunks_exact_mut(Layout::<N>::TWIST_ROW).enumerate() {
             let impulse = wanted[t] * factor;
@@ -167,6 +228,18 @@ impl<const N: usize> Passes<N> {
             row[Layout::<N>::TWIST_IMPULSE] = impulse;
             p.apply_angular(&row[..2 * Self::K], change);
         }
+    }
+
+    /// The largest part of a twist over its length.
+    #[inline(always)]
+    fn share_of_largest(twist: &[Lanes; MAX], largest: Lanes) -> Lanes {
+        let scale = Lanes::splat(1.0).div(largest);
+        let mut length_sq = Lanes::ZERO;
+        for part in &twist[..Layout::<N>::TWISTS] {
+            let part = *part * scale;
+            length_sq += part * part;
+        }
+        Lanes::splat(1.0).div(length_sq.max(Lanes::splat(1.0)).sqrt())
     }
 
     /// What a unit of friction coefficient can hold against the twist B, in parts of B over `largest`: the points at ρ
@@ -306,7 +379,8 @@ impl<const N: usize> Passes<N> {
             let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
             let mut p = Pairing::<N>::gather(block, rows, state);
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
-            let (points, response) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
+            let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
+            let response = &rest[..block.points * (block.points + 1) / 2];
             let restitution = head[Layout::<N>::RESTITUTION];
             let (mut starts, mut accelerations, mut changes) = ([zero; N], [zero; N], [zero; N]);
             for (t, row) in Self::field(block, head).enumerate() {

@@ -53,7 +53,7 @@ pub fn incline_gravity<const N: usize>(angle: f64) -> Vector<N> {
 }
 
 pub fn material(friction: f64, restitution: f64) -> Material {
-    Material { friction, restitution, density: 1.0 }
+    Material { friction, restitution, ..Material::default() }
 }
 
 pub fn ball<const N: usize>(radius: f64) -> Shape<N> {
