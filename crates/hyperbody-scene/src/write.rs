@@ -6,7 +6,7 @@ use crate::json::Json;
 use crate::model::{
     Angle, Body, BodyKind, Factor, Joint, JointKind, Part, PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size,
 };
-use crate::read::{FORMAT, VERSION};
+use crate::read::{FORMAT, RULES, VERSION};
 
 impl Scene {
     /// The scene as a file of the current version. What has its default value is left out, but for the world's own
@@ -60,11 +60,21 @@ fn single(key: &str, value: Json) -> Json {
 }
 
 fn material(material: &Material) -> Json {
-    Json::Object(vec![
+    let mut fields = vec![
         field("friction", Json::Number(material.friction)),
         field("restitution", Json::Number(material.restitution)),
         field("density", Json::Number(material.density)),
-    ])
+    ];
+    let resistances =
+        [("rolling_resistance", material.rolling_resistance), ("twisting_resistance", material.twisting_resistance)];
+    for (key, value) in resistances.into_iter().filter(|(_, value)| value.to_bits() != 0) {
+        fields.push(field(key, Json::Number(value)));
+    }
+    for (key, rule) in [("friction_rule", material.friction_rule), ("restitution_rule", material.restitution_rule)] {
+        let name = rule.and_then(|rule| RULES.iter().find(|(_, other)| *other == rule));
+        fields.extend(name.map(|(name, _)| field(key, text(name))));
+    }
+    Json::Object(fields)
 }
 
 fn body(body: &Body) -> Json {
@@ -88,6 +98,14 @@ fn body(body: &Body) -> Json {
     add("angular_damping", unless(0.0, body.angular_damping));
     add("can_sleep", (!body.can_sleep).then_some(Json::Bool(false)));
     add("surface_velocity", vector(&body.surface_velocity));
+    let groups = |groups: &Option<Vec<u32>>| {
+        let list = groups.as_ref()?.iter().map(|&group| Json::Number(f64::from(group)));
+        Some(Json::List(list.collect()))
+    };
+    add("groups", groups(&body.groups));
+    add("meets", groups(&body.meets));
+    add("sensor", body.sensor.then_some(Json::Bool(true)));
+    add("one_way", vector(&body.one_way));
     add("colour", body.colour.map(|colour| numbers(&colour)));
     Json::Object(fields)
 }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use hyperbody::dynamics::POSITION_LIMIT;
 use hyperbody::math::{Dim, EvenAlgebra, planes};
-use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, Material, Tuning, Vector, World, WorldDef};
+use hyperbody::prelude::{Bivector, BodyDef, BodyHandle, Groups, Material, Tuning, Vector, World, WorldDef};
 
 use crate::error::{ErrorKind, SceneError, meant};
 use crate::model::{Body, Scene};
@@ -174,6 +174,15 @@ pub(crate) fn materials(scene: &Scene) -> Result<BTreeMap<&str, Material>> {
         if !(density > 0.0 && density.is_finite()) {
             return refuse("density", density, "a finite number above 0");
         }
+        let resistances = [
+            ("rolling_resistance", named.material.rolling_resistance),
+            ("twisting_resistance", named.material.twisting_resistance),
+        ];
+        for (key, value) in resistances {
+            if !(value >= 0.0 && value.is_finite()) {
+                return refuse(key, value, "a finite number of metres, 0 or more");
+            }
+        }
         materials.insert(&named.name, named.material);
     }
     Ok(materials)
@@ -217,6 +226,20 @@ where
             &format!("{path}.surface_velocity"),
             Limit::SPEED,
         )?);
+    def.groups = Groups::new(
+        bits(body.groups.as_deref(), &format!("{path}.groups"))?,
+        bits(body.meets.as_deref(), &format!("{path}.meets"))?,
+    );
+    def.sensor = body.sensor;
+    if !body.one_way.is_empty() {
+        let place = format!("{path}.one_way");
+        let side = vector::<N>(&body.one_way, &place)?;
+        if side.try_normalize().is_none() {
+            let message = "is zero; it has to point to the side that holds".to_owned();
+            return Err(SceneError::value(place, message));
+        }
+        def.one_way = Some(side);
+    }
     def.mass = body.mass;
     if let Some(colour) = body.colour
         && !colour.iter().all(|part| (0.0..=1.0).contains(part))
@@ -225,6 +248,17 @@ where
         return Err(SceneError::value(format!("{path}.colour"), message));
     }
     Ok(def)
+}
+
+/// Groups as one bit each; all where the list is left out.
+fn bits(groups: Option<&[u32]>, path: &str) -> Result<u32> {
+    let Some(groups) = groups else { return Ok(u32::MAX) };
+    groups.iter().enumerate().try_fold(0, |bits, (index, &group)| {
+        let bit = 1_u32.checked_shl(group).ok_or_else(|| {
+            SceneError::value(format!("{path}[{index}]"), format!("is {group}; groups are numbered from 0 to 31"))
+        })?;
+        Ok(bits | bit)
+    })
 }
 
 fn angular_velocity<const N: usize>(rates: &[(String, f64)], path: &str) -> Result<Bivector<N>> {

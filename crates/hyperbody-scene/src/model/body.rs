@@ -37,6 +37,14 @@ pub struct Body {
     pub can_sleep: bool,
     /// How its surface runs along it, in its own frame, m/s: a conveyor. Empty: not at all.
     pub surface_velocity: Vec<f64>,
+    /// The groups that it is in, of 0 to 31; `None`: all.
+    pub groups: Option<Vec<u32>>,
+    /// The groups that it meets; `None`: all.
+    pub meets: Option<Vec<u32>>,
+    /// Whether it only notices what overlaps it.
+    pub sensor: bool,
+    /// The side, in its own frame, on which it holds what comes from there. Empty: all sides.
+    pub one_way: Vec<f64>,
     /// Colour in pictures as red, green, blue in 0..=1; `None`: chosen by the picture.
     pub colour: Option<[f64; 3]>,
 }
@@ -61,6 +69,10 @@ impl Body {
             angular_damping: 0.0,
             can_sleep: true,
             surface_velocity: Vec::new(),
+            groups: None,
+            meets: None,
+            sensor: false,
+            one_way: Vec::new(),
             colour: None,
         }
     }

@@ -5,7 +5,7 @@ use super::{Result, rotation, shape};
 use crate::error::{SceneError, nearest};
 use crate::model::{Body, BodyKind};
 
-pub(super) const BODY_KEYS: [&str; 16] = [
+pub(super) const BODY_KEYS: [&str; 20] = [
     "name",
     "kind",
     "shape",
@@ -21,6 +21,10 @@ pub(super) const BODY_KEYS: [&str; 16] = [
     "angular_damping",
     "can_sleep",
     "surface_velocity",
+    "groups",
+    "meets",
+    "sensor",
+    "one_way",
     "colour",
 ];
 
@@ -44,6 +48,10 @@ pub(super) fn body(at: &At<'_>) -> Result<Body> {
     body.angular_damping = fields.or("angular_damping", body.angular_damping, At::number)?;
     body.can_sleep = fields.or("can_sleep", body.can_sleep, At::boolean)?;
     body.surface_velocity = fields.or("surface_velocity", Vec::new(), At::coordinates)?;
+    body.groups = fields.or("groups", None, |at| groups(at).map(Some))?;
+    body.meets = fields.or("meets", None, |at| groups(at).map(Some))?;
+    body.sensor = fields.or("sensor", body.sensor, At::boolean)?;
+    body.one_way = fields.or("one_way", Vec::new(), At::coordinates)?;
     body.colour = fields.or("colour", None, |at| colour(at).map(Some))?;
     Ok(body)
 }
@@ -60,6 +68,10 @@ fn kind(at: &At<'_>) -> Result<BodyKind> {
             Err(SceneError::value(&at.path, message))
         }
     }
+}
+
+fn groups(at: &At<'_>) -> Result<Vec<u32>> {
+    at.list("a list of groups, such as [0, 3]")?.iter().map(At::count).collect()
 }
 
 fn colour(at: &At<'_>) -> Result<[f64; 3]> {

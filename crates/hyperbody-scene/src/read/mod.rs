@@ -11,10 +11,10 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use hyperbody::prelude::Material;
+use hyperbody::prelude::{CombineRule, Material};
 
 use crate::dimension::DIMENSIONS;
-use crate::error::{ErrorKind, SceneError};
+use crate::error::{ErrorKind, SceneError, nearest};
 use crate::json::Json;
 use crate::model::{NamedMaterial, Scene};
 pub(crate) use cursor::{At, join};
@@ -134,13 +134,46 @@ fn check_format(entries: &[(String, At<'_>)]) -> Result<()> {
     Ok(())
 }
 
+const MATERIAL_KEYS: [&str; 7] = [
+    "friction",
+    "restitution",
+    "density",
+    "rolling_resistance",
+    "twisting_resistance",
+    "friction_rule",
+    "restitution_rule",
+];
+
+/// Rules by which two materials combine, as files name them.
+pub(crate) const RULES: [(&str, CombineRule); 5] = [
+    ("geometric_mean", CombineRule::GeometricMean),
+    ("average", CombineRule::Average),
+    ("minimum", CombineRule::Minimum),
+    ("multiply", CombineRule::Multiply),
+    ("maximum", CombineRule::Maximum),
+];
+
+fn rule(at: &At<'_>) -> Result<CombineRule> {
+    let text = at.text()?;
+    RULES.iter().find(|(name, _)| *name == text).map(|(_, rule)| *rule).ok_or_else(|| {
+        let names = RULES.map(|(name, _)| name);
+        let near = nearest(&text, names).unwrap_or(names[0]);
+        let message = format!("is \"{text}\", expected one of {}; the nearest is \"{near}\"", names.join(", "));
+        SceneError::value(&at.path, message)
+    })
+}
+
 fn materials(at: &At<'_>) -> Result<Vec<NamedMaterial>> {
     let material = |(name, at): (String, At<'_>)| {
-        let fields = at.fields("a material", &["friction", "restitution", "density"])?;
+        let fields = at.fields("a material", &MATERIAL_KEYS)?;
         let mut material = Material::default();
         material.friction = fields.or("friction", material.friction, At::number)?;
         material.restitution = fields.or("restitution", material.restitution, At::number)?;
         material.density = fields.or("density", material.density, At::number)?;
+        material.rolling_resistance = fields.or("rolling_resistance", material.rolling_resistance, At::number)?;
+        material.twisting_resistance = fields.or("twisting_resistance", material.twisting_resistance, At::number)?;
+        material.friction_rule = fields.or("friction_rule", None, |at| rule(at).map(Some))?;
+        material.restitution_rule = fields.or("restitution_rule", None, |at| rule(at).map(Some))?;
         Ok(NamedMaterial { name, material })
     };
     at.entries("an object of materials by name")?.into_iter().map(material).collect()
@@ -171,6 +204,7 @@ mod tests {
         let keys = KEYS
             .iter()
             .chain(&body::BODY_KEYS)
+            .chain(&MATERIAL_KEYS)
             .chain(&shape::SHAPES)
             .chain(&joint::JOINTS)
             .chain(&joint::COMMON_KEYS)

@@ -1,5 +1,6 @@
 //! Scene → text → scene is the same scene, for the gallery and for every key of the format.
 
+use hyperbody::prelude::{CombineRule, Material};
 use hyperbody_scene::{
     Angle, AnyWorld, BUILT_IN, Body, BodyKind, Joint, JointKind, JointLimits, JointSpring, NamedMaterial, Part,
     PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size, Turn,
@@ -27,13 +28,22 @@ fn everything() -> Scene {
     scene.dt = 1.0 / 240.0;
     scene.substeps = 7;
     scene.sleeping = false;
-    let material =
-        hyperbody::prelude::Material { friction: 0.7, restitution: 0.25, density: 1e-3, ..Default::default() };
-    scene.materials = vec![NamedMaterial { name: "ice".to_owned(), material }];
+    let material = Material { friction: 0.7, restitution: 0.25, density: 1e-3, ..Material::default() };
+    let tyre = Material {
+        rolling_resistance: 0.01,
+        twisting_resistance: 0.02,
+        friction_rule: Some(CombineRule::Minimum),
+        restitution_rule: Some(CombineRule::Average),
+        ..Material::default()
+    };
+    let named = |name: &str, material| NamedMaterial { name: name.to_owned(), material };
+    scene.materials = vec![named("ice", material), named("tyre", tyre)];
     let mut body = Body::new(ShapeSpec::ball(0.5)).named("a").at([1.0, 2.0, 3.0, 4.0]).moving([0.5, 0.0, 0.0, -0.0]);
     body = body.spinning("wx", 1.5).spinning("zw", -0.25).weighing(2.5).made_of("ice").coloured([1.0, 0.5, 0.0]);
     body.kind = BodyKind::Kinematic;
     body.density = Some(3.0);
+    (body.groups, body.meets, body.sensor) = (Some(vec![0, 31]), Some(vec![]), true);
+    body.one_way = vec![0.0, 1.0, 0.0, 0.0];
     (body.gravity_scale, body.linear_damping, body.angular_damping, body.can_sleep) = (-1.0, 0.1, 0.2, false);
     body.rotation = RotationSpec::Turns(vec![
         Turn { plane: "xw".to_owned(), angle: Angle::Degrees(30.0) },
