@@ -27,6 +27,7 @@ export const zhScenes: Record<string, { title: string; sentence: string }> = {
   pyramid4d: { title: "立方体上的金字塔", sentence: "64、27、8、1 个超正方体，每个都压在下面八个之上。" },
   pit4d: { title: "超正方体坑", sentence: "三层、每层 27 个倾斜的超正方体落入坑中，翻滚、静止。" },
   dice4d: { title: "六十颗骰子", sentence: "四维的骰子：5、8、16、24 胞体以随机角度抛下，停在整个胞上。" },
+  dice_pit4d: { title: "一百颗圆骰子", sentence: "一百颗近乎圆球的骰子，120 胞体与 600 胞体各半，落进六面墙的坑里，各自停在数百个胞中的一个上。" },
   balls4d: { title: "球池", sentence: "135 个四维球落进六面墙的坑里堆起来。" },
   capsules4d: { title: "圆木", sentence: "54 根胶囊像圆木一样落下；躺在地上仍有三个方向可以滚动、转动。" },
   rounded4d: { title: "磨圆的骰子", sentence: "棱角磨圆的超正方体与正十六胞体，会从棱上滚过去，而尖棱的会卡住。" },

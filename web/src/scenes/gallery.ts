@@ -5,7 +5,7 @@ import { ownScenes } from "./own";
 const ORDER = ["first", "stacks", "dice", "piles", "games", "links", "friction", "joints", "spins", "bounces", "flatland", "higher", "plane"];
 
 /** Scenes of the engine that stand elsewhere than where their sort puts them. */
-const MOVED: Record<string, string> = { dice4d: "dice", rounded4d: "dice", embedded4d: "first" };
+const MOVED: Record<string, string> = { dice4d: "dice", dice_pit4d: "dice", rounded4d: "dice", embedded4d: "first" };
 
 /** From this dimension on scenes have a group of their own, as have those of two. */
 const HIGHER = 5;

@@ -35,7 +35,7 @@ impl BuiltIn {
 }
 
 /// All built-in scenes, by dimension.
-pub const BUILT_IN: [BuiltIn; 25] = [
+pub const BUILT_IN: [BuiltIn; 26] = [
     BuiltIn { name: "pyramid2d", build: stacks::pyramid_2d },
     BuiltIn { name: "bounce2d", build: bounces::restitution_2d },
     BuiltIn { name: "cradle2d", build: joints::cradle_2d },
@@ -48,6 +48,7 @@ pub const BUILT_IN: [BuiltIn; 25] = [
     BuiltIn { name: "pyramid4d", build: stacks::pyramid_4d },
     BuiltIn { name: "pit4d", build: piles::tesseracts_4d },
     BuiltIn { name: "dice4d", build: piles::dice_4d },
+    BuiltIn { name: "dice_pit4d", build: piles::round_dice_4d },
     BuiltIn { name: "balls4d", build: piles::balls_4d },
     BuiltIn { name: "capsules4d", build: piles::capsules_4d },
     BuiltIn { name: "rounded4d", build: piles::rounded_4d },

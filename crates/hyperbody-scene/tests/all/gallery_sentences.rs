@@ -145,6 +145,22 @@ fn what_falls_into_a_pit_stays_there_and_comes_to_rest() {
 }
 
 #[test]
+fn a_hundred_round_dice_settle_within_15_seconds() {
+    let mut run = Run::new("dice_pit4d");
+    let end = run.until(15.0);
+    let dice = &end[7..];
+    assert_eq!(dice.len(), 100);
+    let awake: Vec<&str> = dice.iter().filter(|die| !die.sleeping).map(|die| die.name.as_str()).collect();
+    assert!(awake.is_empty(), "after 15 s {awake:?} still move");
+    for (before, after) in run.start.iter().zip(&end).skip(7) {
+        assert!(after.position[1] > 0.4 && sideways(before, after) < 4.0, "{} left the pit", after.name);
+    }
+    let overlap = run.world.measure_penetration();
+    println!("100 dice of 120 and 600 cells at rest; deepest overlap {overlap:.2e} m");
+    assert!(overlap < 0.02, "dice overlap by {overlap} m");
+}
+
+#[test]
 fn an_embedded_scene_stays_in_its_space() {
     let mut run = Run::new("embedded4d");
     for body in run.until(3.0) {
