@@ -11,6 +11,9 @@
 //! | [`regular`] | the regular polytopes by name |
 //! | [`off`] | OFF files |
 //! | [`section`] | [`SectionPolytope`]: sections by hyperplanes |
+//! | [`projection`] | [`Projection`]: bodies seen along an axis, in parallel or in perspective |
+//! | [`pyramid`] | [`Pyramid`](pyramid::Pyramid): pyramids and cones over shapes of one dimension less |
+//! | [`star`] | the regular star polytopes, and any other, from a Schläfli symbol |
 //! | [`decompose`] | [`convex_cells`](decompose::convex_cells): convex cells of solids that are not convex |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`volume`] | volumes of balls |
@@ -30,10 +33,13 @@ pub mod mass;
 pub mod off;
 pub mod polytope;
 pub mod product;
+pub mod projection;
+pub mod pyramid;
 mod quadrature;
 pub mod regular;
 pub mod section;
 pub mod shape;
+pub mod star;
 pub mod surface;
 pub mod tolerances;
 pub mod volume;
@@ -45,6 +51,7 @@ pub use face_lattice::{Face, FaceLattice};
 pub use mass::MassProperties;
 pub use off::OffFile;
 pub use polytope::Polytope;
+pub use projection::{Projection, Wireframe};
 pub use section::{SectionPolytope, SectionScratch, SliceFrame, Solid, SupportMap};
 pub use shape::{Piece, Shape};
 pub use surface::Surface;

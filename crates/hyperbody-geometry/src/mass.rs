@@ -114,6 +114,7 @@ impl<const N: usize> Shape<N> {
             }
             Self::Polytope(polytope) => Ok(MassProperties::of_polytope(polytope)),
             Self::Product(product) => Ok(product.unit_properties()),
+            Self::Pyramid(pyramid) => Ok(pyramid.unit_properties()),
             Self::Rounded { core, radius } => match core.as_ref() {
                 Self::Box { half_extents } => Ok(rounded_box::properties(*half_extents, *radius)),
                 Self::Polytope(polytope) => rounded_polytope::properties(polytope, *radius),

@@ -95,6 +95,11 @@ impl OffFile {
         fine
     }
 
+    /// A file of coordinates, `dimension` of them for each vertex, and of the elements from rank 2 on, which have to fit.
+    pub(crate) const fn from_elements(dimension: usize, vertices: Vec<f64>, elements: Vec<Vec<Vec<u32>>>) -> Self {
+        Self { dimension, vertices, elements }
+    }
+
     /// The file of a polytope, with all its faces.
     #[must_use]
     pub fn from_polytope<const N: usize>(polytope: &Polytope<N>) -> Self {

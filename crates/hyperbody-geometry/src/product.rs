@@ -12,6 +12,7 @@ use hyperbody_math::{Matrix, Vector};
 use crate::error::GeometryErrorKind::{BadCount, Unsupported};
 use crate::mass::MassProperties;
 use crate::polytope::Facet;
+use crate::section::density::{self, Simplex, Term};
 use crate::section::{SupportMap, approximate};
 use crate::shape::Piece;
 use crate::tolerances::{FACETING, MAX_PRODUCT_VERTICES};
@@ -31,6 +32,30 @@ pub struct Factor {
     /// The factor itself, or a polytope close to it.
     faceted: Faceted,
     faceting: f64,
+    measure: Arc<dyn FactorMeasure>,
+}
+
+/// The section function of a factor, whose dimension is in its type only.
+trait FactorMeasure: std::fmt::Debug + Send + Sync {
+    /// As [`SupportMap::section_volume`].
+    fn section_volume(&self, normal: &[f64], offset: f64, tolerance: f64) -> f64;
+}
+
+/// A factor with flat faces, filled with simplices.
+#[derive(Debug)]
+struct FlatMeasure<const K: usize>(Vec<Simplex<K>>);
+
+impl<const K: usize> FactorMeasure for FlatMeasure<K> {
+    fn section_volume(&self, normal: &[f64], offset: f64, _tolerance: f64) -> f64 {
+        Vector::from_slice(normal).map_or(0.0, |normal| density::of_simplices(&self.0, normal, offset))
+    }
+}
+
+impl<const K: usize> FactorMeasure for Convex<K> {
+    fn section_volume(&self, normal: &[f64], offset: f64, tolerance: f64) -> f64 {
+        Vector::from_slice(normal)
+            .map_or(0.0, |normal| SupportMap::<K>::section_volume(self, normal, offset, tolerance))
+    }
 }
 
 /// A polytope of any dimension from one up.
@@ -60,13 +85,14 @@ impl Factor {
     /// A shape of `K` dimensions whose i-th axis is axis `axes[i]` of the product. It has to be convex and bounded.
     ///
     /// # Errors
-    /// `Unsupported` for half-spaces, compounds and products (give the factors of a product one by one), and for curved shapes
+    /// `Unsupported` for half-spaces, compounds, cones and products (give the factors of a product one by one), and for curved shapes
     /// of more than four dimensions, which contacts would need too many facets for.
     pub fn new<const K: usize>(axes: [usize; K], shape: &Shape<K>) -> Result<Self> {
         let refuse = |what: &str| Err(GeometryError::new(Unsupported, format!("a factor of a product is {what}")));
         let convex = match shape {
             Shape::Compound { .. } => return refuse("a compound: make a compound of products instead"),
             Shape::Product(_) => return refuse("a product: give its factors one by one"),
+            Shape::Pyramid(_) => return refuse("a cone, which is not supported there: use a pyramid over a polytope"),
             _ => match shape.pieces().pop() {
                 Some((_, Piece::Convex(convex))) => convex,
                 _ => return refuse("a half-space, which has no end: use a long box"),
@@ -74,6 +100,8 @@ impl Factor {
         };
         let mass = shape.mass_properties(1.0)?;
         let (faceted, faceting) = Faceted::of_convex(&convex)?;
+        let measure: Arc<dyn FactorMeasure> =
+            if convex.radius == 0.0 { Arc::new(FlatMeasure(filling(&convex.core)?)) } else { Arc::new(convex.clone()) };
         Ok(Self {
             axes: axes.to_vec(),
             corners: corners(&convex.core).iter().flat_map(|c| c.0).collect(),
@@ -83,11 +111,69 @@ impl Factor {
             second_moments: mass.second_moments.0.iter().flatten().copied().collect(),
             faceted,
             faceting,
+            measure,
         })
     }
 
+    /// The largest direction·p over the factor, for a unit direction.
+    fn reach(&self, direction: &[f64]) -> f64 {
+        let along = |corner: &[f64]| corner.iter().zip(direction).map(|(c, d)| c * d).sum::<f64>();
+        self.corners.chunks(self.axes.len()).map(along).fold(f64::NEG_INFINITY, f64::max) + self.radius
+    }
+
+    /// The factor as the section function of the product along a normal sees it; `None` if the normal does not.
+    pub(crate) fn term<const N: usize>(&self, normal: Vector<N>) -> Option<Term<'_>> {
+        let part: Vec<f64> = self.axes.iter().map(|&axis| normal[axis]).collect();
+        let weight = part.iter().map(|c| c * c).sum::<f64>().sqrt();
+        if weight < BLIND {
+            return None;
+        }
+        let unit: Vec<f64> = part.iter().map(|c| c / weight).collect();
+        let opposite: Vec<f64> = unit.iter().map(|c| -c).collect();
+        let range = [-self.reach(&opposite), self.reach(&unit)];
+        let section = move |offset: f64, tolerance: f64| self.measure.section_volume(&unit, offset, tolerance);
+        Some(Term { weight, range, section: Box::new(section) })
+    }
+
+    pub(crate) fn axes(&self) -> &[usize] {
+        &self.axes
+    }
+
+    /// m^K.
+    pub(crate) const fn volume(&self) -> f64 {
+        self.volume
+    }
+
+    /// How far the polytope that contacts see is from the factor, m.
+    pub(crate) const fn faceting(&self) -> f64 {
+        self.faceting
+    }
+
+    /// The vertices of that polytope; zero on other axes.
+    pub(crate) fn faceted_vertices<const N: usize>(&self) -> Vec<Vector<N>> {
+        let place = |own: &[f64]| {
+            let mut point = Vector::ZERO;
+            self.axes.iter().zip(own).for_each(|(&axis, &c)| point[axis] = c);
+            point
+        };
+        self.faceted.vertices.chunks(self.axes.len()).map(place).collect()
+    }
+
+    /// The centre, and the second moments about it per unit volume; zero on other axes.
+    pub(crate) fn placed_moments<const N: usize>(&self) -> (Vector<N>, Matrix<N>) {
+        let mut centre = Vector::ZERO;
+        let mut second = Matrix::ZERO;
+        for (i, &row) in self.axes.iter().enumerate() {
+            centre[row] = self.centre[i];
+            for (j, &column) in self.axes.iter().enumerate() {
+                second[row][column] = self.second_moments[i * self.axes.len() + j] / self.volume;
+            }
+        }
+        (centre, second)
+    }
+
     /// Puts the farthest point in `direction` into the coordinates that are this factor's.
-    fn support<const N: usize>(&self, direction: Vector<N>, point: &mut Vector<N>) {
+    pub(crate) fn support<const N: usize>(&self, direction: Vector<N>, point: &mut Vector<N>) {
         let along = |corner: &[f64]| self.axes.iter().zip(corner).map(|(&axis, c)| direction[axis] * c).sum::<f64>();
         let mut best: (&[f64], f64) = (&[], f64::NEG_INFINITY);
         for corner in self.corners.chunks(self.axes.len()) {
@@ -102,6 +188,26 @@ impl Factor {
             point[axis] = c + outward[axis];
         }
     }
+}
+
+/// Length of the part of a unit normal below which a factor stands along the hyperplane.
+const BLIND: f64 = 1e-12;
+
+/// Simplices that fill a core.
+fn filling<const K: usize>(core: &Core<K>) -> Result<Vec<Simplex<K>>> {
+    let corners = corners(core);
+    if K == 1 {
+        return Ok(density::simplices(&corners, &[vec![0, 1]]));
+    }
+    let polytope = match core {
+        Core::Polytope(polytope) => Arc::clone(polytope),
+        _ => Arc::new(Polytope::from_points(&corners)?),
+    };
+    let mut points = polytope.vertices().to_vec();
+    points.push(polytope.vertex_mean());
+    let apex = polytope.vertices().len() as u32;
+    let cone = |simplex: &[u32; K]| std::iter::once(apex).chain(simplex.iter().copied()).collect::<Vec<u32>>();
+    Ok(density::simplices(&points, &polytope.boundary_simplices().iter().map(cone).collect::<Vec<_>>()))
 }
 
 /// The vertices of a core.
@@ -190,6 +296,18 @@ impl<const N: usize> SupportMap<N> for Product<N> {
         }
         point
     }
+
+    fn section_volume(&self, normal: Vector<N>, offset: f64, tolerance: f64) -> f64 {
+        let mut across = 1.0;
+        let mut terms = Vec::with_capacity(self.factors.len());
+        for factor in &self.factors {
+            match factor.term(normal) {
+                Some(term) => terms.push(term),
+                None => across *= factor.volume,
+            }
+        }
+        across * density::of_sum(&terms, offset, tolerance / across)
+    }
 }
 
 impl<const N: usize> Product<N> {
@@ -211,13 +329,9 @@ impl<const N: usize> Product<N> {
         let mut centre = Vector::ZERO;
         let mut second_moments = Matrix::ZERO;
         for factor in &self.factors {
-            let size = factor.axes.len();
-            for (i, &row) in factor.axes.iter().enumerate() {
-                centre[row] = factor.centre[i];
-                for (j, &column) in factor.axes.iter().enumerate() {
-                    second_moments[row][column] = factor.second_moments[i * size + j] / factor.volume * volume;
-                }
-            }
+            let (own_centre, own_second) = factor.placed_moments::<N>();
+            centre += own_centre;
+            second_moments += own_second * volume;
         }
         MassProperties { mass: volume, centre, second_moments }
     }

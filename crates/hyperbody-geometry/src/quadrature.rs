@@ -1,5 +1,7 @@
 //! Integrals of smooth functions of one variable.
 
+use hyperbody_math::scalar;
+
 /// Halvings of an interval at most; the functions integrated here are analytic, and few need any.
 const MAX_DEPTH: u32 = 24;
 
@@ -49,6 +51,38 @@ pub(crate) fn integrate(tolerance: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     sum
 }
 
+/// Intervals looked at by [`integrate_between`] at most: an integrand that is noisier than the tolerance ends there.
+const MAX_INTERVALS: usize = 4096;
+
+/// ∫ f from `low` to `high`, to within about `tolerance`; f may go to zero like a root at both ends, and have kinks and steps
+/// in between. With x = low + (high − low)(1 − cos πs)/2 a root at an end becomes analytic.
+pub(crate) fn integrate_between(low: f64, high: f64, tolerance: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+    use std::f64::consts::PI;
+    let width = high - low;
+    if width.is_nan() || width <= 0.0 {
+        return 0.0;
+    }
+    let mut g = |s: f64| {
+        let (sin, cos) = scalar::sin_cos(PI * s);
+        f(low + 0.5 * width * (1.0 - cos)) * (0.5 * PI * width * sin)
+    };
+    let mut sum = 0.0;
+    let mut intervals = vec![(0.5, 0.5, 0)];
+    for _ in 0..MAX_INTERVALS {
+        let Some((centre, half_width, depth)) = intervals.pop() else { break };
+        let (gauss, kronrod) = both_rules(&mut g, centre, half_width);
+        if (gauss - kronrod).abs() <= tolerance || depth >= MAX_DEPTH {
+            sum += kronrod;
+        } else {
+            let quarter = 0.5 * half_width;
+            intervals.push((centre - quarter, quarter, depth + 1));
+            intervals.push((centre + quarter, quarter, depth + 1));
+        }
+    }
+    // What the bound has left, by the coarse rule.
+    intervals.into_iter().fold(sum, |sum, (centre, half_width, _)| sum + both_rules(&mut g, centre, half_width).1)
+}
+
 fn both_rules(f: &mut impl FnMut(f64) -> f64, centre: f64, half_width: f64) -> (f64, f64) {
     let middle = f(centre);
     let mut gauss = GAUSS_WEIGHTS[3] * middle;
@@ -80,6 +114,10 @@ mod tests {
     #[test]
     fn integrals_are_those_of_the_tables() {
         assert!((integrate(1e-9, |x| 4.0 / (1.0 + x * x)) - std::f64::consts::PI).abs() < 1e-15);
+        let half_disc = integrate_between(-1.0, 1.0, 1e-12, |x| (1.0 - x * x).max(0.0).sqrt());
+        assert!((half_disc - 0.5 * std::f64::consts::PI).abs() < 1e-13);
+        let step = integrate_between(-1.0, 2.0, 1e-9, |x| if x < 0.3 { 1.0 } else { 0.0 });
+        assert!((step - 1.3).abs() < 1e-6, "{step}");
         // A square root that ends at the end of the interval.
         assert!((integrate(1e-12, |x| (1.0 - x).sqrt()) - 2.0 / 3.0).abs() < 1e-11);
     }

@@ -6,6 +6,7 @@ use hyperbody_math::{Pose, Vector};
 
 use crate::error::GeometryErrorKind::{BadCount, BadNumber, Unsupported};
 use crate::product::Product;
+use crate::pyramid::Pyramid;
 use crate::tolerances::{MAX_LENGTH, MAX_PARTS, MIN_LENGTH};
 
 use crate::{Convex, Core, GeometryError, Polytope, Result};
@@ -51,6 +52,8 @@ pub enum Shape<const N: usize> {
     },
     /// A product of shapes of lower dimension, of which at least one is curved: see [`Shape::product`].
     Product(Arc<Product<N>>),
+    /// A pyramid over a curved base, a cone: see [`Shape::pyramid`].
+    Pyramid(Arc<Pyramid<N>>),
     /// The union of parts, each placed by its pose; half-spaces and compounds are not allowed as parts.
     Compound {
         /// At least one.
@@ -174,6 +177,10 @@ impl<const N: usize> Shape<N> {
                 Unsupported,
                 "a product with curved factors cannot be rounded: round its factors instead",
             )),
+            Self::Pyramid(_) => Err(GeometryError::new(
+                Unsupported,
+                "a cone cannot be rounded: use a pyramid over a polytope, or a rounded base",
+            )),
             Self::Compound { .. } => {
                 Err(GeometryError::new(Unsupported, "a compound cannot be rounded: round its parts instead"))
             }
@@ -241,6 +248,7 @@ impl<const N: usize> Shape<N> {
             }
             Self::Polytope(polytope) => (Core::Polytope(Arc::clone(polytope)), 0.0),
             Self::Product(product) => (Core::Polytope(Arc::clone(product.faceted())), 0.0),
+            Self::Pyramid(pyramid) => (Core::Polytope(Arc::clone(pyramid.faceted())), 0.0),
             Self::Rounded { core, radius } => {
                 let (inner, inner_radius) = core.core_and_radius();
                 (inner, inner_radius + radius)
@@ -251,7 +259,7 @@ impl<const N: usize> Shape<N> {
 }
 
 /// `length` if it lies in the range of lengths, else an error that names it.
-fn check_length(what: &str, length: f64) -> Result<f64> {
+pub(crate) fn check_length(what: &str, length: f64) -> Result<f64> {
     if (MIN_LENGTH..=MAX_LENGTH).contains(&length) {
         return Ok(length);
     }

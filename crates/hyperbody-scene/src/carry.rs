@@ -38,6 +38,7 @@ fn files_of(shape: &ShapeSpec, path: &str, out: &mut Vec<(String, String)>) {
                 files_of(&factor.shape, &format!("{path}.factors[{index}].shape"), out);
             }
         }
+        ShapeSpec::Pyramid { base, .. } => files_of(&base.shape, &format!("{path}.base.shape"), out),
         ShapeSpec::Compound { parts } => {
             for (index, part) in parts.iter().enumerate() {
                 files_of(&part.shape, &format!("{path}.parts[{index}].shape"), out);
@@ -47,6 +48,7 @@ fn files_of(shape: &ShapeSpec, path: &str, out: &mut Vec<(String, String)>) {
         | ShapeSpec::Box { .. }
         | ShapeSpec::HalfSpace { .. }
         | ShapeSpec::Capsule { .. }
+        | ShapeSpec::Star { .. }
         | ShapeSpec::Polytope(_) => {}
     }
 }

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use hyperbody::geometry::MassProperties;
 use hyperbody::geometry::decompose::convex_cells;
 use hyperbody::geometry::off::{OffFile, parse};
+use hyperbody::geometry::regular::Size;
+use hyperbody::geometry::star;
 use hyperbody::prelude::Polytope;
 
 use crate::build::shape_error;
@@ -55,10 +57,59 @@ pub(crate) fn mesh<const N: usize>(text: &str, path: &str) -> Result<Option<(Vec
     }
     let surface = file.boundary::<N>().map_err(refuse)?;
     let properties = MassProperties::of_closed_boundary(&points, &surface).map_err(refuse)?;
+    Ok(Some((counts::<N>(&file), properties)))
+}
+
+/// The surface of a star polytope of `N` dimensions.
+fn star_surface<const N: usize>(name: &str, size: Size, path: &str) -> Result<OffFile> {
+    let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
+    let file = star::surface(&star::symbol(name).map_err(refuse)?, size).map_err(refuse)?;
+    if file.dimension() == N {
+        return Ok(file);
+    }
+    let message = format!("\"{name}\" has {} dimensions, where {N} are wanted", file.dimension());
+    Err(SceneError::new(ErrorKind::Shape, path, message))
+}
+
+/// Numbers of vertices, edges, …, facets of a star polytope, and the mass properties of its surface, winding numbers counted.
+///
+/// # Errors
+/// If the name stands for no star polytope of `N` dimensions, or the size is no length.
+pub(crate) fn star_mass<const N: usize>(name: &str, size: Size, path: &str) -> Result<(Vec<usize>, MassProperties<N>)> {
+    let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
+    let file = star_surface::<N>(name, size, path)?;
+    let surface = file.boundary::<N>().map_err(refuse)?;
+    let points = file.vertices::<N>().unwrap_or_default();
+    let properties = MassProperties::of_closed_boundary(&points, &surface).map_err(refuse)?;
+    Ok((counts::<N>(&file), properties))
+}
+
+fn counts<const N: usize>(file: &OffFile) -> Vec<usize> {
     let mut counts = vec![file.vertex_count(), file.edge_count()];
     counts.extend((2..N).map(|rank| file.elements(rank).len()));
-    Ok(Some((counts, properties)))
+    counts
 }
+
+/// Convex cells of the union of what the surface of a star polytope winds around; of up to three dimensions.
+///
+/// # Errors
+/// As [`star_mass`], and for star polychora, which have too many cells to be a body.
+pub(crate) fn star_cells<const N: usize>(name: &str, size: Size, path: &str) -> Result<Vec<Polytope<N>>> {
+    let file = star_surface::<N>(name, size, path)?;
+    if N > MAX_STAR_DIMENSION {
+        let message = format!(
+            "\"{name}\" is a star polytope of {N} dimensions, whose facets cross each other in too many cells for a body; \
+             `inspect` weighs it, and its hull is a \"polytope\""
+        );
+        return Err(SceneError::new(ErrorKind::Unsupported, path, message));
+    }
+    let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
+    let points = file.vertices::<N>().unwrap_or_default();
+    convex_cells(&points, &file.boundary::<N>().map_err(refuse)?).map_err(refuse)
+}
+
+/// Up to here the cells of star polytopes are a few dozen.
+const MAX_STAR_DIMENSION: usize = 3;
 
 /// Convex cells of what the surface in a file bounds; the hull for files with vertices only.
 ///

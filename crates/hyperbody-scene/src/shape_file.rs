@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hyperbody::geometry::MassProperties;
 use hyperbody::geometry::regular::Regular;
+use hyperbody::geometry::star;
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::Shape;
 
@@ -78,12 +79,16 @@ impl ShapeFile {
         Ok(Self { dimension, shape, closed, file: path.to_path_buf() })
     }
 
-    /// Numbers of vertices, edges, …, facets, and mass properties at unit density, of an OFF file whose surface is not convex:
-    /// such a file makes no body yet. `None` for all other files. `N` has to be [`ShapeFile::dimension`].
+    /// Numbers of vertices, edges, …, facets, and mass properties at unit density, of a surface that is not convex: an OFF file's,
+    /// or that of a star polytope, where what the surface winds around twice counts twice. `None` for all other files. `N` has to
+    /// be [`ShapeFile::dimension`].
     ///
     /// # Errors
     /// If the surface is open or cannot be oriented.
     pub fn mesh<const N: usize>(&self) -> Result<Option<(Vec<usize>, MassProperties<N>)>> {
+        if let ShapeSpec::Star { name, size } = &self.shape {
+            return off::star_mass::<N>(name, *size, "star").map(Some).map_err(|error| error.in_file(Some(&self.file)));
+        }
         if !is_off(&self.file) {
             return Ok(None);
         }
@@ -124,6 +129,8 @@ impl ShapeSpec {
                 first.filter(|_| known.next().is_none())
             }
             Self::Polytope(PolytopeSpec::File(_)) | Self::Mesh { .. } => None,
+            Self::Star { name, .. } => star::symbol(name).ok().map(|symbol| symbol.len() + 1),
+            Self::Pyramid { base, .. } => Some(base.axes.chars().count() + 1),
             Self::Rounded { shape, .. } => shape.dimension(),
             Self::Product { factors } => Some(factors.iter().map(|factor| factor.axes.chars().count()).sum()),
             Self::Compound { parts } => parts.iter().find_map(|part| {

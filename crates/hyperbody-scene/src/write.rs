@@ -133,28 +133,35 @@ pub(crate) fn shape(shape: &ShapeSpec) -> Json {
         ],
         ShapeSpec::Polytope(polytope) => match polytope {
             PolytopeSpec::Vertices(vertices) => vec![field("vertices", rows(vertices))],
-            PolytopeSpec::Regular { name, size } => {
-                let size = match size {
-                    Size::Circumradius(radius) => field("circumradius", Json::Number(*radius)),
-                    Size::Edge(edge) => field("edge", Json::Number(*edge)),
-                };
-                vec![field("regular", text(name)), size]
-            }
+            PolytopeSpec::Regular { name, size } => regular(name, size),
             PolytopeSpec::File(file) => vec![field("file", text(file))],
         },
         ShapeSpec::Rounded { shape: core, radius } => {
             vec![field("shape", self::shape(core)), field("radius", Json::Number(*radius))]
         }
+        ShapeSpec::Star { name, size } => regular(name, size),
+        ShapeSpec::Pyramid { base, height } => {
+            vec![field("base", factor(base)), field("height", Json::Number(*height))]
+        }
         ShapeSpec::Mesh { file } => vec![field("file", text(file))],
         ShapeSpec::Product { factors } => {
-            let factor = |factor: &Factor| {
-                Json::Object(vec![field("shape", self::shape(&factor.shape)), field("axes", text(&factor.axes))])
-            };
             vec![field("factors", Json::List(factors.iter().map(factor).collect()))]
         }
         ShapeSpec::Compound { parts } => vec![field("parts", Json::List(parts.iter().map(part).collect()))],
     };
     single(shape.key(), Json::Object(inner))
+}
+
+fn regular(name: &str, size: &Size) -> Vec<(String, Json)> {
+    let size = match size {
+        Size::Circumradius(radius) => field("circumradius", Json::Number(*radius)),
+        Size::Edge(edge) => field("edge", Json::Number(*edge)),
+    };
+    vec![field("regular", text(name)), size]
+}
+
+fn factor(factor: &Factor) -> Json {
+    Json::Object(vec![field("shape", shape(&factor.shape)), field("axes", text(&factor.axes))])
 }
 
 fn part(part: &Part) -> Json {

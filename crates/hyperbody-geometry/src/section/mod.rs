@@ -11,12 +11,16 @@
 //! | `cut` | the exact cut of a polytope, by combinatorics |
 //! | `fallback` | the same for polytopes from files of few digits |
 //! | `support` | [`SupportMap`]: sections of curved bodies |
+//! | `measure` | volumes of sections of curved bodies, to a given tolerance |
+//! | `density` | the same in closed form, or as one integral: polytopes, balls, capsules, products |
 //! | `approximate` | [`approximate()`]: polytopes for curved bodies, with a bound on the error |
 
 mod approximate;
 mod cut;
+pub(crate) mod density;
 mod fallback;
 mod frame;
+mod measure;
 mod polytope;
 mod solid;
 mod support;
@@ -26,4 +30,5 @@ pub use cut::SectionScratch;
 pub use frame::SliceFrame;
 pub use polytope::SectionPolytope;
 pub use solid::Solid;
+pub(crate) use support::InShadow;
 pub use support::SupportMap;

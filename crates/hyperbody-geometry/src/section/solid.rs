@@ -5,9 +5,10 @@ use std::sync::Arc;
 use hyperbody_math::{Pose, Vector};
 
 use super::support::{InHyperplane, SupportOfSection};
-use super::{SectionPolytope, SliceFrame, SupportMap, approximate};
-use crate::error::GeometryErrorKind::Unsupported;
+use super::{SectionPolytope, SliceFrame, SupportMap, approximate, density};
+use crate::error::GeometryErrorKind::{BadNumber, Unsupported};
 use crate::shape::Piece;
+use crate::volume::unit_ball;
 use crate::{Convex, Core, GeometryError, Polytope, Result, Shape};
 
 /// One convex piece of a shape, or of a section of it.
@@ -45,6 +46,15 @@ impl<const N: usize> SupportMap<N> for Placed<N> {
     fn support(&self, direction: Vector<N>) -> Vector<N> {
         self.pose.transform_point(self.body.support(self.pose.rotation.inverse_rotate(direction)))
     }
+
+    fn section_volume(&self, normal: Vector<N>, offset: f64, tolerance: f64) -> f64 {
+        let offset = offset - normal.dot(self.pose.translation);
+        self.body.section_volume(self.pose.rotation.inverse_rotate(normal), offset, tolerance)
+    }
+
+    fn volume(&self, tolerance: f64) -> f64 {
+        self.body.volume(tolerance)
+    }
 }
 
 impl<const N: usize> Shape<N> {
@@ -57,6 +67,32 @@ impl<const N: usize> Shape<N> {
         solids
     }
 
+    /// The volume (m^(N−1)) of the section by the hyperplane of `frame`, without making the section: in closed form for
+    /// balls, boxes and polytopes, and for curved shapes as integrals to within about `tolerance`, in parts of the volume of
+    /// the box around the section. Parts of compounds add up, as their masses do.
+    ///
+    /// The section function of a product is the convolution of those of its factors, that of a simplex is a B-spline (H. B.
+    /// Curry, I. J. Schoenberg, 1966), and those of capsules are integrals of powers of roots: these take microseconds to
+    /// milliseconds. Rounded boxes and polytopes are measured by their supports, which takes the tenth of a second or so in 4D
+    /// at a tolerance of 1e-8, and a hundred times as long with each further dimension.
+    ///
+    /// # Errors
+    /// `Unsupported` for a half-space, which has no end; `BadNumber` if the tolerance is not positive.
+    ///
+    /// ```
+    /// use hyperbody_geometry::product::Factor;
+    /// use hyperbody_geometry::{Shape, SliceFrame};
+    /// let disc = Shape::<2>::ball(1.0)?;
+    /// let duocylinder = Shape::<4>::product(vec![Factor::new([0, 1], &disc)?, Factor::new([2, 3], &disc)?])?;
+    /// // Across w, a cylinder.
+    /// let volume = duocylinder.section_volume(&SliceFrame::from_normal([0.0, 0.0, 0.0, 1.0], 0.6)?, 1e-9)?;
+    /// assert!((volume - std::f64::consts::PI * 1.6).abs() < 1e-9);
+    /// # Ok::<(), hyperbody_geometry::GeometryError>(())
+    /// ```
+    pub fn section_volume(&self, frame: &SliceFrame<N>, tolerance: f64) -> Result<f64> {
+        self.solids().iter().map(|solid| solid.section_volume(frame, tolerance)).sum()
+    }
+
     fn add_solids(&self, outer_from_shape: &Pose<N>, solids: &mut Vec<Solid<N>>) {
         match self {
             Self::Compound { parts } => {
@@ -64,10 +100,8 @@ impl<const N: usize> Shape<N> {
                     part.add_solids(&(*outer_from_shape * *pose), solids);
                 }
             }
-            Self::Product(product) => {
-                let body: Arc<dyn SupportMap<N>> = Arc::clone(product) as _;
-                solids.push(Solid::Curved(Arc::new(Placed { body, pose: *outer_from_shape })));
-            }
+            Self::Product(product) => solids.push(Solid::curved(Arc::clone(product) as _, outer_from_shape)),
+            Self::Pyramid(pyramid) => solids.push(Solid::curved(Arc::clone(pyramid) as _, outer_from_shape)),
             _ => {
                 let placed = |(pose, piece)| Solid::from_piece(piece, *outer_from_shape * pose);
                 solids.extend(self.pieces().into_iter().map(placed));
@@ -77,6 +111,10 @@ impl<const N: usize> Shape<N> {
 }
 
 impl<const N: usize> Solid<N> {
+    fn curved(body: Arc<dyn SupportMap<N>>, outer_from_body: &Pose<N>) -> Self {
+        Self::Curved(Arc::new(Placed { body, pose: *outer_from_body }))
+    }
+
     fn from_piece(piece: Piece<N>, pose: Pose<N>) -> Self {
         let convex = match piece {
             Piece::HalfSpace { normal, offset } => {
@@ -138,6 +176,59 @@ impl<const N: usize> Solid<N> {
                 Some(Solid::Curved(Arc::new(InHyperplane::<N, M>(section))))
             }
         }
+    }
+
+    /// The volume (m^(N−1)) of the section by the hyperplane of `frame`; see [`Shape::section_volume`].
+    ///
+    /// # Errors
+    /// As [`Shape::section_volume`].
+    pub fn section_volume(&self, frame: &SliceFrame<N>, tolerance: f64) -> Result<f64> {
+        self.check_measurable(tolerance)?;
+        let normal = frame.normal();
+        Ok(match self {
+            Self::Ball { centre, radius } => density::of_ball(N, *radius, frame.height(*centre)),
+            Self::HalfSpace { .. } => f64::INFINITY,
+            Self::Polytope(polytope) => {
+                let simplices = density::simplices(polytope.vertices(), &polytope.filling());
+                density::of_simplices(&simplices, normal, frame.offset())
+            }
+            Self::Curved(body) => {
+                let around = self.box_volume() / (self.reach(normal) + self.reach(-normal));
+                body.section_volume(normal, frame.offset(), tolerance * around)
+            }
+        })
+    }
+
+    /// The volume (m^N): exactly that of balls and polytopes, and that of curved pieces to within about `tolerance`, in parts
+    /// of the volume of the box around the piece. Of a section it is that of [`Shape::section_volume`].
+    ///
+    /// # Errors
+    /// As [`Shape::section_volume`].
+    pub fn volume(&self, tolerance: f64) -> Result<f64> {
+        self.check_measurable(tolerance)?;
+        Ok(match self {
+            Self::Ball { radius, .. } => unit_ball(N) * (0..N).map(|_| radius).product::<f64>(),
+            Self::HalfSpace { .. } => f64::INFINITY,
+            Self::Polytope(polytope) => polytope.mass_properties().mass,
+            Self::Curved(body) => body.volume(tolerance * self.box_volume()),
+        })
+    }
+
+    fn check_measurable(&self, tolerance: f64) -> Result<()> {
+        if matches!(self, Self::HalfSpace { .. }) {
+            return Err(GeometryError::new(Unsupported, "a half-space has no end, and so no volume: use a large box"));
+        }
+        if tolerance > 0.0 && tolerance.is_finite() {
+            return Ok(());
+        }
+        let message =
+            format!("the tolerance of a volume is {tolerance}: it must be positive, in parts of the box around");
+        Err(GeometryError::new(BadNumber, message))
+    }
+
+    /// The volume of the axis-aligned box around the piece.
+    fn box_volume(&self) -> f64 {
+        (0..N).map(|axis| self.reach(Vector::unit(axis)) + self.reach(-Vector::unit(axis))).product()
     }
 
     /// How far the piece reaches in a direction: the largest direction·p. Infinite for half-spaces.

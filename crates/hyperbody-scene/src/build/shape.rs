@@ -82,10 +82,12 @@ where
             }
             ShapeSpec::Mesh { file } => {
                 let place = format!("{path}.file");
-                let cells = off::cells(&read_beside(self.beside, file, &place)?, &place)?;
-                let parts: geometry::Result<Vec<_>> =
-                    cells.into_iter().map(|cell| Ok((Pose::IDENTITY, Shape::polytope(Arc::new(cell))?))).collect();
-                parts.and_then(Shape::compound).map_err(refuse(&place))
+                compound_of(off::cells(&read_beside(self.beside, file, &place)?, &place)?).map_err(refuse(&place))
+            }
+            ShapeSpec::Star { name, size } => compound_of(off::star_cells(name, *size, &path)?).map_err(refuse(&path)),
+            ShapeSpec::Pyramid { base, height } => {
+                let base = product::factor::<N>(base, self.beside, &format!("{path}.base"), depth)?;
+                Shape::pyramid(base, *height).map_err(refuse(&path))
             }
             ShapeSpec::Product { factors } => {
                 let made: Result<Vec<_>> = factors
@@ -132,6 +134,12 @@ where
         self.made.insert(key, Arc::clone(&polytope));
         Ok(polytope)
     }
+}
+
+fn compound_of<const N: usize>(cells: Vec<Polytope<N>>) -> geometry::Result<Shape<N>> {
+    let parts: geometry::Result<Vec<_>> =
+        cells.into_iter().map(|cell| Ok((Pose::IDENTITY, Shape::polytope(Arc::new(cell))?))).collect();
+    parts.and_then(Shape::compound)
 }
 
 pub(super) fn axis<const N: usize>(name: &str, path: &str) -> Result<usize> {

@@ -26,8 +26,8 @@ pub(super) fn round_dice_4d() -> Scene {
         "A hundred dice that are nearly balls, 120-cells and 600-cells by turns, fall into a pit with six walls and lie \
          still: each on one of its hundreds of cells.",
     );
-    scene.bodies = heap(4, 3, 4, 1.15, 0.5, 90.0)
-        .bodies(|index| ShapeSpec::regular(["120-cell", "600-cell"][index % 2], 0.5));
+    scene.bodies =
+        heap(4, 3, 4, 1.15, 0.5, 90.0).bodies(|index| ShapeSpec::regular(["120-cell", "600-cell"][index % 2], 0.5));
     // The floor, six walls, and of the last layer as many as make a hundred.
     scene.bodies.truncate(7 + 100);
     scene

@@ -48,6 +48,20 @@ pub enum ShapeSpec {
         /// Two or more, whose axes are all axes of the scene once.
         factors: Vec<Factor>,
     },
+    /// A pyramid over a shape of one dimension less, a cone if that is curved.
+    Pyramid {
+        /// The base, whose axes are all axes of the scene but that of the height. It lies at −height/2.
+        base: Box<Factor>,
+        /// > 0. The apex lies at height/2, over the origin of the base.
+        height: f64,
+    },
+    /// A regular star polytope about the origin, as the union of what its surface winds around.
+    Star {
+        /// Its name or Schläfli symbol: "great icosahedron" or "{3,5/2}".
+        name: String,
+        /// How large it is.
+        size: Size,
+    },
     /// What the surface in an OFF file beside the scene bounds, convex or not.
     Mesh {
         /// The file.
@@ -134,6 +148,18 @@ impl ShapeSpec {
         Self::Product { factors: factors.into_iter().map(factor).collect() }
     }
 
+    /// The pyramid over a shape on the given axes.
+    #[must_use]
+    pub fn pyramid(base: Self, axes: &str, height: f64) -> Self {
+        Self::Pyramid { base: Box::new(Factor { shape: base, axes: axes.to_owned() }), height }
+    }
+
+    /// A regular star polytope by name or symbol and circumradius.
+    #[must_use]
+    pub fn star(name: &str, circumradius: f64) -> Self {
+        Self::Star { name: name.to_owned(), size: Size::Circumradius(circumradius) }
+    }
+
     /// This shape rounded by a radius.
     #[must_use]
     pub fn rounded(self, radius: f64) -> Self {
@@ -151,6 +177,8 @@ impl ShapeSpec {
             Self::Polytope(_) => "polytope",
             Self::Rounded { .. } => "rounded",
             Self::Product { .. } => "product",
+            Self::Pyramid { .. } => "pyramid",
+            Self::Star { .. } => "star",
             Self::Mesh { .. } => "mesh",
             Self::Compound { .. } => "compound",
         }

@@ -6,8 +6,8 @@ use crate::error::SceneError;
 use crate::model::{Factor, Part, PolytopeSpec, RotationSpec, ShapeSpec, Size};
 
 /// The shapes that this version builds.
-pub(crate) const SHAPES: [&str; 9] =
-    ["ball", "box", "half_space", "capsule", "polytope", "rounded", "product", "mesh", "compound"];
+pub(crate) const SHAPES: [&str; 11] =
+    ["ball", "box", "half_space", "capsule", "polytope", "rounded", "product", "pyramid", "star", "mesh", "compound"];
 
 pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
     let (key, inner) = at.variant("the kind of shape", &SHAPES)?;
@@ -40,6 +40,24 @@ pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
             let fields = inner.fields("a product", &["factors"])?;
             let factors = fields.required("factors")?.list("a list of factors")?;
             Ok(ShapeSpec::Product { factors: factors.iter().map(factor).collect::<Result<_>>()? })
+        }
+        "pyramid" => {
+            let fields = inner.fields("a pyramid", &["base", "height"])?;
+            let base = Box::new(factor(&fields.required("base")?)?);
+            Ok(ShapeSpec::Pyramid { base, height: fields.required("height")?.number()? })
+        }
+        "star" => {
+            let fields = inner.fields("a star polytope", &["regular", "circumradius", "edge"])?;
+            let name = fields.required("regular")?.text()?;
+            let size = match (fields.optional("circumradius"), fields.optional("edge")) {
+                (Some(radius), None) => Size::Circumradius(radius.number()?),
+                (None, Some(edge)) => Size::Edge(edge.number()?),
+                _ => {
+                    let message = "needs one of \"circumradius\" and \"edge\" for its size";
+                    return Err(SceneError::structure(&inner.path, message));
+                }
+            };
+            Ok(ShapeSpec::Star { name, size })
         }
         "mesh" => Ok(ShapeSpec::Mesh { file: inner.fields("a mesh", &["file"])?.required("file")?.text()? }),
         "compound" => {

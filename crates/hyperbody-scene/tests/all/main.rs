@@ -3,6 +3,7 @@
 mod gallery;
 mod gallery_sentences;
 mod hostile_text;
+mod mesh_bodies;
 mod recording;
 mod round_trip;
 mod shapes_rest;

@@ -65,6 +65,7 @@ fn everything() -> Scene {
     scene.bodies.push(Body::new(ShapeSpec::Compound { parts }).named("b"));
     let product = ShapeSpec::product([(ShapeSpec::ball(0.5), "xw"), (ShapeSpec::cube(2, 0.2), "zy")]);
     scene.bodies.push(Body::new(product));
+    scene.bodies.push(Body::new(ShapeSpec::pyramid(ShapeSpec::ball(0.5), "xzw", 0.75)));
     let mut rotor = vec![0.0; 8];
     rotor[0] = 1.0;
     let mut turned = Body::new(ShapeSpec::regular("24-cell", 0.7));
@@ -106,6 +107,8 @@ fn every_key_survives() {
     AnyWorld::new(&scene, 1).expect("the scene with every key is a good one");
     let mut with_file = Scene::new("", 3);
     with_file.bodies.push(Body::new(ShapeSpec::Polytope(PolytopeSpec::File("shapes/die.off".to_owned()))));
+    with_file.bodies.push(Body::new(ShapeSpec::star("{5/2,5}", 0.5)));
+    with_file.bodies.push(Body::new(ShapeSpec::Star { name: "great icosahedron".to_owned(), size: Size::Edge(1.0) }));
     assert_round_trip(&with_file);
 }
 
