@@ -50,7 +50,7 @@ fn curved_shapes_and_higher_dimensions_are_cut_too() {
 fn the_volume_of_a_curved_section_does_not_depend_on_the_triangles() {
     let factors =
         r#"[{"shape": {"ball": {"radius": 1}}, "axes": "xy"}, {"shape": {"ball": {"radius": 0.5}}, "axes": "zw"}]"#;
-    let shape = file("slice/duocylinder.json", &format!(r#"{{"product": {{"factors": {factors}}}}}"#));
+    let shape = file("slice/duocylinder.json", format!(r#"{{"product": {{"factors": {factors}}}}}"#));
     let out = file("slice/cylinder.stl", "");
     let [shape, out] = [&shape, &out].map(|path| path.to_str().expect("UTF-8"));
     let report = json_of(&["slice", shape, "-o", out, "--offset", "0.3", "--tolerance", "0.05", "--json"]);
