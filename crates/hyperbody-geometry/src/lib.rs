@@ -37,6 +37,7 @@ pub mod projection;
 pub mod pyramid;
 mod quadrature;
 pub mod regular;
+mod round_parts;
 pub mod section;
 pub mod shape;
 pub mod star;
