@@ -49,12 +49,12 @@ pub(crate) fn collide<const N: usize>(
             }
         }
         Core::Polytope(polytope) => {
-            polytope.for_each_vertex_toward(toward_plane, |index, vertex| gather(vertex, index as u32));
+            for (index, &vertex) in polytope.vertices().iter().enumerate() {
+                gather(vertex, index as u32);
+            }
         }
     }
-    let round = matches!(&shape.core, Core::Polytope(polytope) if polytope.stands_for_round());
-    let share = if round { LOWEST_OF_ROUND } else { NEARLY_LOWEST };
-    let near = (share * extent).min(0.5 * inner_radius(&shape.core, Vector::ZERO).max(0.0));
+    let near = (NEARLY_LOWEST * extent).min(0.5 * inner_radius(&shape.core, Vector::ZERO).max(0.0));
     keep_lowest(&Faces::of(&shape.core), toward_plane, extent, near, reducer);
     if let (Core::Box { .. }, true) = (&shape.core, 1 << (N - 2) == max_points(N)) {
         classify_corners(toward_plane.axis_of_max_abs(), toward_plane, reducer);
@@ -100,7 +100,3 @@ fn keep_lowest<const N: usize>(
 /// Height above the deepest vertex, in parts of the shape's size, up to which vertices off the lowest facet count; but no
 /// more than a quarter of a flat shape's thickness, whose top does not help to hold it.
 const NEARLY_LOWEST: f64 = 0.02;
-
-/// The same for the faceted form of a curved shape, of which only the lowest points are the shape's own: its other vertices are
-/// where some polytope has them, and would be stumbled over.
-const LOWEST_OF_ROUND: f64 = 1e-3;

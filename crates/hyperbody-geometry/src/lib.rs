@@ -37,7 +37,6 @@ pub mod projection;
 pub mod pyramid;
 mod quadrature;
 pub mod regular;
-mod round_parts;
 pub mod section;
 pub mod shape;
 pub mod star;

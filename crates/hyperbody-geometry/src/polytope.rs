@@ -3,7 +3,6 @@
 use hyperbody_math::{Matrix, Vector};
 
 use crate::error::GeometryErrorKind::BadNumber;
-use crate::round_parts::{self, RoundPart};
 use crate::tolerances::MIN_CLIMBING_VERTICES;
 use crate::{FaceLattice, GeometryError, Result, hull, incidence};
 
@@ -20,8 +19,6 @@ pub struct Polytope<const N: usize> {
     bounding_radius: f64,
     /// A vertex farthest along −axis and along +axis, for each axis in turn: where the climb to a support begins.
     axis_supports: Vec<u32>,
-    /// What is round in the shape that this polytope stands for; empty for most.
-    round_parts: Vec<RoundPart>,
 }
 
 /// One facet (face of dimension `N − 1`): the polytope lies where normal·p ≤ offset.
@@ -72,7 +69,6 @@ impl<const N: usize> Polytope<N> {
             vertex_neighbours,
             bounding_radius: 0.0,
             axis_supports: Vec::new(),
-            round_parts: Vec::new(),
         };
         polytope.update_bounds();
         polytope
@@ -93,29 +89,6 @@ impl<const N: usize> Polytope<N> {
         }
         self.update_bounds();
         self
-    }
-
-    /// This polytope in place of a shape that is round in these parts.
-    pub(crate) fn standing_for(mut self, round_parts: Vec<RoundPart>) -> Self {
-        self.round_parts = round_parts;
-        self
-    }
-
-    /// Whether the polytope stands for a shape that is round in some of its dimensions: the faceted form of a product or cone.
-    #[must_use]
-    pub fn stands_for_round(&self) -> bool {
-        !self.round_parts.is_empty()
-    }
-
-    /// Calls `f` with the number and place of every vertex. Where the polytope stands for a shape with round parts, these are
-    /// turned so that a vertex lies exactly where the shape reaches farthest in `direction` (of any length): seen from a plane
-    /// across that direction the polytope is as round as the shape, and rolls like it.
-    pub fn for_each_vertex_toward(&self, direction: Vector<N>, mut f: impl FnMut(usize, Vector<N>)) {
-        if self.round_parts.is_empty() {
-            self.vertices.iter().enumerate().for_each(|(number, &vertex)| f(number, vertex));
-        } else {
-            round_parts::for_each_vertex_toward(&self.vertices, &self.round_parts, direction, f);
-        }
     }
 
     /// Mean of the vertices: a point of the interior.
@@ -157,7 +130,7 @@ impl<const N: usize> Polytope<N> {
     /// The polytope moved by `offset`.
     #[must_use]
     pub fn translated(&self, offset: Vector<N>) -> Self {
-        let mut moved = self.clone().standing_for(Vec::new());
+        let mut moved = self.clone();
         for vertex in &mut moved.vertices {
             *vertex += offset;
         }
@@ -179,7 +152,7 @@ impl<const N: usize> Polytope<N> {
                 format!("a polytope is scaled by {factor}: the factor must be positive and finite"),
             ));
         }
-        let mut scaled = self.clone().standing_for(Vec::new());
+        let mut scaled = self.clone();
         for vertex in &mut scaled.vertices {
             *vertex *= factor;
         }
