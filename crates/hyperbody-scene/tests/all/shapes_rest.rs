@@ -18,21 +18,9 @@ fn shapes(dimension: usize) -> Vec<ShapeSpec> {
     let parts = [1.0, -1.0].map(|sign| Part::new(ShapeSpec::cube(dimension, 0.3), corner(sign))).to_vec();
     shapes.push(ShapeSpec::Compound { parts });
     shapes.extend(["simplex", "cross-polytope"].map(|name| ShapeSpec::regular(name, 0.6)));
-    if dimension > 2 {
-        // A cone over a disc or ball, and a pyramid over a cube.
-        let axes: String = "xzwvu".chars().take(dimension - 1).collect();
-        if dimension < 6 {
-            shapes.push(ShapeSpec::pyramid(ShapeSpec::ball(0.5), &axes, 0.8));
-        }
-        shapes.push(ShapeSpec::pyramid(ShapeSpec::cube(dimension - 1, 0.4), &axes, 0.8));
-    }
     match dimension {
-        2 => {
-            shapes.extend(["pentagon", "7-gon"].map(|name| ShapeSpec::regular(name, 0.6)));
-            shapes.push(ShapeSpec::star("{5/2}", 0.6));
-        }
+        2 => shapes.extend(["pentagon", "7-gon"].map(|name| ShapeSpec::regular(name, 0.6))),
         3 => {
-            shapes.extend(["{5/2,5}", "great dodecahedron", "{5/2,3}"].map(|name| ShapeSpec::star(name, 0.6)));
             shapes.extend(["dodecahedron", "icosahedron"].map(|name| ShapeSpec::regular(name, 0.6)));
             shapes.push(ShapeSpec::product([(ShapeSpec::ball(0.5), "xz"), (ShapeSpec::cube(1, 0.4), "y")]));
         }
