@@ -86,7 +86,8 @@ impl Bytes<'_> {
             4 => Shape::half_space(self.vector::<N>(), self.number()).ok(),
             5 => Shape::rounded(self.shape(depth - 1)?, self.number()).ok(),
             _ => {
-                let parts = (0..self.below(4)).map(|_| Some((self.pose(), self.shape(depth - 1)?))).collect::<Option<_>>()?;
+                let parts =
+                    (0..self.below(4)).map(|_| Some((self.pose(), self.shape(depth - 1)?))).collect::<Option<_>>()?;
                 Shape::compound(parts).ok()
             }
         }

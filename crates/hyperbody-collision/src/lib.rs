@@ -43,4 +43,4 @@ pub mod tree;
 pub use manifold::{ContactPoint, MAX_POINTS, Manifold, max_points};
 pub use narrow::{Effort, PairCache, Scratch, collide};
 pub use ray::{Ray, RayHit};
-pub use tree::{DynamicTree, RayStack};
+pub use tree::{DynamicTree, RayStack, RayTree};

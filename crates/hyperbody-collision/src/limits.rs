@@ -63,6 +63,13 @@ pub const GJK_RELATIVE_GAP: f64 = 1e-14;
 /// The absolute part of the same, in parts of the shapes' size: a few roundings of a vertex.
 pub const GJK_ABSOLUTE_GAP: f64 = 1e-15;
 
+/// How much less than the distance of two cores, in parts of their size, the direction between their closest points may
+/// certify before a better one is looked for.
+pub const CERTIFIED: f64 = 1e-10;
+
+/// How far, in parts of their size, cores are pushed into each other to find that direction.
+pub const PUSH: f64 = 1e-6;
+
 /// Bound on the turns of the distance search. The most seen over the fuzzing is a quarter of it.
 pub const MAX_GJK_TURNS: u32 = 128;
 

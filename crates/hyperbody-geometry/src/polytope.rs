@@ -144,7 +144,7 @@ impl<const N: usize> Polytope<N> {
     /// The polytope with every coordinate multiplied by `factor`.
     ///
     /// # Errors
-    /// If the factor is not finite or not positive.
+    /// If the factor is not finite or not positive, or leads to a size outside 1e-150 to 1e150 m.
     pub fn scaled(&self, factor: f64) -> Result<Self> {
         if !(factor > 0.0 && factor.is_finite()) {
             return Err(GeometryError::new(
@@ -160,6 +160,16 @@ impl<const N: usize> Polytope<N> {
             facet.offset *= factor;
         }
         scaled.update_bounds();
+        // Squares of lengths have to be numbers.
+        if !(1e-150..=1e150).contains(&scaled.bounding_radius) {
+            return Err(GeometryError::new(
+                BadNumber,
+                format!(
+                    "a polytope is scaled by {factor} to a size of {} m: it must lie between 1e-150 and 1e150",
+                    scaled.bounding_radius
+                ),
+            ));
+        }
         Ok(scaled)
     }
 

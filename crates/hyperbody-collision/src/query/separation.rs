@@ -14,7 +14,7 @@ use crate::difference::Difference;
 use crate::gjk::{self, Proximity, Seeds};
 use crate::narrow::{Scratch, is_finite, plane_in_world};
 use crate::round::{self, Segment, Witness};
-use crate::{descent, general, overlap};
+use crate::{descent, general, limits, overlap};
 
 /// How two shapes lie to each other, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -340,7 +340,9 @@ fn by_difference<const N: usize>(difference: &Difference<'_, N>, scratch: &mut S
     match proximity {
         Proximity::Near(near) => {
             let [on_a, on_b] = near.simplex.witnesses(difference);
-            Witness { normal: near.normal, on_a, on_b, separation: near.distance }
+            let witness = Witness { normal: near.normal, on_a, on_b, separation: near.distance };
+            let uncertain = near.distance + difference.reach(near.normal) > limits::CERTIFIED * difference.scale;
+            if uncertain { sharpened(difference, witness, scratch) } else { witness }
         }
         Proximity::Overlap(simplex) => {
             let found = general::penetrate(difference, &simplex, f64::INFINITY, scratch);
@@ -354,6 +356,39 @@ fn by_difference<const N: usize>(difference: &Difference<'_, N>, scratch: &mut S
             Witness { normal, on_a, on_b, separation: -difference.reach(normal) }
         }
     }
+}
+
+/// Closest points so near to each other that the direction between them is mostly rounding: pushed into each other a
+/// little, the shapes have a way out whose direction is not. The direction that separates most is taken.
+fn sharpened<const N: usize>(
+    difference: &Difference<'_, N>,
+    witness: Witness<N>,
+    scratch: &mut Scratch<N>,
+) -> Witness<N> {
+    let push = witness.separation + limits::PUSH * difference.scale;
+    let pushed = Pose {
+        translation: difference.a_from_b.translation - witness.normal * push,
+        rotation: difference.a_from_b.rotation,
+    };
+    let overlapping = Difference { a_from_b: &pushed, ..*difference };
+    let mut best = (witness.normal, -difference.reach(witness.normal));
+    let mut consider = |normal: Vector<N>| {
+        let separation = -difference.reach(normal);
+        if separation > best.1 {
+            best = (normal, separation);
+        }
+    };
+    if let Some(facet) = overlap::best_facet(&overlapping, 0.0, Feature::None, witness.normal) {
+        consider(facet.normal);
+    }
+    let proximity = gjk::closest(&overlapping, &Seeds::default(), witness.normal, f64::INFINITY, &mut 0);
+    if let Proximity::Overlap(simplex) = proximity {
+        consider(general::penetrate(&overlapping, &simplex, f64::INFINITY, scratch).normal);
+    }
+    let (normal, separation) = best;
+    let middle = (witness.on_a + witness.on_b) * 0.5;
+    let half = normal * (0.5 * separation);
+    Witness { normal, on_a: middle - half, on_b: middle + half, separation }
 }
 
 /// The witness, or what a descent from the best facet normal finds if that is shallower.

@@ -11,9 +11,11 @@
 //! and so allocate nothing once it has grown.
 
 mod ray;
+mod rays;
 mod rebuild;
 
 pub use ray::RayStack;
+pub use rays::RayTree;
 
 use hyperbody_geometry::Aabb;
 use hyperbody_math::Vector;

@@ -12,7 +12,7 @@ use crate::ray::Ray;
 #[derive(Clone, Debug, Default)]
 pub struct RayStack {
     /// Nodes still to be looked at, and where the ray enters their boxes.
-    entries: Vec<(f64, u32)>,
+    pub(super) entries: Vec<(f64, u32)>,
 }
 
 /// A ray, prepared for many boxes.

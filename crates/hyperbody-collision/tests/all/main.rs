@@ -13,3 +13,4 @@ mod ray_shapes;
 mod shape_casts;
 mod tree;
 mod tree_rays;
+mod tree_upkeep;

@@ -38,6 +38,7 @@ fn rays_match_a_list<const N: usize>() {
     for (user, aabb) in boxes.iter().enumerate() {
         tree.insert(*aabb, user as u32);
     }
+    let picture = tree.for_rays(|_, aabb| *aabb);
     let mut met_in_all = 0;
     for round in 0..2000 {
         let ray = if round % 3 == 0 {
@@ -53,6 +54,13 @@ fn rays_match_a_list<const N: usize>() {
             Some(reach)
         });
         met.sort_unstable();
+        let mut in_picture = Vec::new();
+        picture.cast_ray(&ray, &mut stack, |user, reach| {
+            in_picture.push(user);
+            Some(reach)
+        });
+        in_picture.sort_unstable();
+        assert_eq!(in_picture, met, "{ray:?}");
         // Rounding may let in a box that the ray only grazes, and must not keep out one that it meets.
         let missing: Vec<&u32> = expected.iter().filter(|user| met.binary_search(user).is_err()).collect();
         assert!(missing.is_empty(), "{ray:?} meets {missing:?}");
@@ -86,6 +94,30 @@ fn rays_match_a_list<const N: usize>() {
     for bad in [Ray::new([f64::NAN; N], [1.0; N]), Ray::new([0.0; N], [0.0; N])] {
         tree.cast_ray(&bad, &mut stack, |_, _| panic!("{bad:?} is no ray"));
     }
+}
+
+/// None and one are trees too.
+fn small_pictures<const N: usize>() {
+    let mut tree = DynamicTree::<N>::new();
+    let mut stack = RayStack::default();
+    let mut met = |tree: &DynamicTree<N>, ray: Ray<N>| {
+        let mut count = 0;
+        tree.for_rays(|_, aabb| *aabb).cast_ray(&ray, &mut stack, |user, reach| {
+            count += 1 + user;
+            Some(reach)
+        });
+        count
+    };
+    let (at, past) =
+        (Ray::new(Vector::splat(-3.0), Vector::splat(1.0)), Ray::new(Vector::splat(-3.0), Vector::unit(0)));
+    assert_eq!(met(&tree, at), 0);
+    tree.insert(Aabb::from_centre(Vector::ZERO, Vector::splat(1.0)), 6);
+    assert_eq!((met(&tree, at), met(&tree, past)), (7, 0));
+}
+
+#[test]
+fn pictures_of_no_box_and_of_one() {
+    for_every_dimension!(small_pictures);
 }
 
 #[test]

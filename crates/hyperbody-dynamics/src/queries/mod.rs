@@ -20,6 +20,8 @@
 //!
 //! Everything is solid and closed; sleeping, static and quarantined bodies count like others.
 
+use std::sync::OnceLock;
+
 mod cast;
 mod filter;
 mod near;
@@ -31,7 +33,8 @@ pub use near::{BodyProjection, BodySeparation};
 pub use rays::BodyHit;
 
 use hyperbody_collision::ray::Ray;
-use hyperbody_collision::{RayStack, Scratch};
+use hyperbody_collision::{RayStack, RayTree, Scratch};
+use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::Pose;
 use rayon::prelude::*;
@@ -46,6 +49,10 @@ pub struct Queries<'w, const N: usize> {
     world_from_collider: Vec<Pose<N>>,
     /// Radius of the ball about the origin of its frame that holds the collider; infinite for half-spaces.
     reaches: Vec<f64>,
+    /// The tree as rays walk it, with boxes as tight as they come cheaply; made when the first ray asks.
+    rays: OnceLock<RayTree<N>>,
+    /// For a single question, for which making it would not pay.
+    single: bool,
     /// Colliders that the tree does not hold where they are: half-spaces, and those out of their boxes. Ascending.
     apart: Vec<u32>,
     /// The same, by slot.
@@ -72,6 +79,8 @@ impl<const N: usize> World<N> {
             world: self,
             world_from_collider: Vec::with_capacity(self.colliders.len()),
             reaches: Vec::with_capacity(self.colliders.len()),
+            rays: OnceLock::new(),
+            single: false,
             apart: Vec::new(),
             is_apart: Vec::with_capacity(self.colliders.len()),
         };
@@ -107,11 +116,27 @@ impl<const N: usize> World<N> {
     /// The first body that a ray meets: [`Queries::ray_cast`] for a single ray.
     #[must_use]
     pub fn ray_cast(&self, ray: &Ray<N>) -> Option<BodyHit<N>> {
-        self.queries().ray_cast(ray, &mut QueryScratch::default(), &QueryFilter::ALL)
+        let mut queries = self.queries();
+        queries.single = true;
+        queries.ray_cast(ray, &mut QueryScratch::default(), &QueryFilter::ALL)
     }
 }
 
 impl<const N: usize> Queries<'_, N> {
+    /// The tree as rays walk it.
+    fn ray_tree(&self) -> &RayTree<N> {
+        self.rays.get_or_init(|| {
+            self.world.tree.for_rays(|slot, fat| match &self.world.colliders[slot as usize] {
+                Some(Collider { piece: Piece::Convex(convex), .. })
+                    if !(self.is_apart[slot as usize] || matches!(convex.core, Core::Polytope(_))) =>
+                {
+                    convex.aabb(&self.world_from_collider[slot as usize])
+                }
+                _ => *fat,
+            })
+        })
+    }
+
     /// A collider that the filter lets through, with its pose and its body.
     #[inline]
     fn candidate(&self, slot: u32, filter: &QueryFilter<'_>) -> Option<(&Collider<N>, &Pose<N>, BodyHandle)> {

@@ -108,9 +108,13 @@ impl<const N: usize> Queries<'_, N> {
                 None => return,
             }
         }
-        self.world.tree.cast_ray(&ray.up_to(reach), &mut scratch.rays, |slot, reach| {
-            if self.is_apart[slot as usize] { Some(reach) } else { look(slot, reach) }
-        });
+        let ray = ray.up_to(reach);
+        let visit = |slot: u32, reach: f64| if self.is_apart[slot as usize] { Some(reach) } else { look(slot, reach) };
+        if self.single {
+            self.world.tree.cast_ray(&ray, &mut scratch.rays, visit);
+        } else {
+            self.ray_tree().cast_ray(&ray, &mut scratch.rays, visit);
+        }
     }
 
     fn in_world(&self, slot: u32, hit: &RayHit<N>) -> Option<BodyHit<N>> {
