@@ -46,7 +46,7 @@ fn queries_allocate_nothing<const N: usize>() {
     let first = ask();
     let mut second = 0;
     let taken = allocation_counter::measure(|| second = ask());
-    assert!(first > 1000 && first == second);
+    assert!(first > 20 && first == second, "{N}D: {first} and {second} boxes seen");
     assert_eq!(taken.count_total, 0, "{N}D: {taken:?}");
     let counted = allocation_counter::measure(|| drop(std::hint::black_box(vec![1_u8])));
     assert_eq!(counted.count_total, 1, "the counter must count");
