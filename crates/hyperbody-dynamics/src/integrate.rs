@@ -25,7 +25,7 @@ impl<const N: usize> World<N> {
             span.translate(body, solved, &change[..N], &displacement[..N]);
             match gyros.next_if(|gyro| gyro.body == row) {
                 Some(gyro) => {
-                    body.angular_momentum = gyro.momentum(solved, &self.solver.state, span.dt);
+                    body.angular_momentum = gyro.own_momentum(solved, &self.solver.state, span.dt);
                     let mut rotation = gyro.world_from_principal * body.inertia.body_from_principal.inverse();
                     rotation.reorthonormalize();
                     body.rotation = rotation;
@@ -90,7 +90,7 @@ impl Span {
         change: &[crate::solver::Real],
         displacement: &[crate::solver::Real],
     ) {
-        body.angular_momentum += body.torque * self.dt + solved.momentum_of(change);
+        body.angular_momentum += body.torque * self.dt + solved.own_momentum_of(change);
         let turned = solved.angular_velocity * self.dt
             + solved.angular_acceleration * self.dt_sq
             + solved.unscaled_velocity(displacement);

@@ -33,6 +33,10 @@ pub mod filter;
 pub mod free_top;
 mod handle;
 mod hash;
+#[cfg(all(debug_assertions, not(test)))]
+#[doc(hidden)]
+#[expect(dead_code, reason = "it is there to be compiled")]
+pub mod instances;
 mod integrate;
 mod islands;
 pub mod joint;

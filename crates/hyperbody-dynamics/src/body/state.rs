@@ -39,6 +39,13 @@ impl<const N: usize> Inertia<N> {
         Self { body_from_principal, moments, isotropic }
     }
 
+    /// The smallest moment of a plane, kg·m².
+    pub(crate) fn smallest_plane_moment(&self) -> f64 {
+        self.isotropic.unwrap_or_else(|| {
+            hyperbody_math::planes::all(N).map(|(i, j)| self.plane_moment(i, j)).fold(f64::INFINITY, f64::min)
+        })
+    }
+
     /// Moment of plane (i, j) of the principal frame, kg·m².
     #[inline]
     pub(crate) fn plane_moment(&self, i: usize, j: usize) -> f64 {

@@ -40,6 +40,8 @@ pub(crate) struct SolverBody<const N: usize> {
     pub(crate) frame: Option<Rotation<N>>,
     /// 1/√I of plane (i, j) of the solver frame, lexicographic; zero for bodies that no impulse moves.
     pub(crate) inverse_sqrt_moments: [f64; MAX_PLANES],
+    /// What the moments have beside those of the body, kg·m²; see `joints/tension.rs`.
+    pub(crate) added_moment: f64,
     pub(crate) centre: Vector<N>,
     /// Base motion: velocity at time t of the step = velocity + t · acceleration.
     pub(crate) velocity: Vector<N>,
@@ -58,6 +60,7 @@ impl<const N: usize> SolverBody<N> {
             inverse_sqrt_mass: 0.0,
             frame: None,
             inverse_sqrt_moments: [0.0; MAX_PLANES],
+            added_moment: 0.0,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
@@ -68,10 +71,10 @@ impl<const N: usize> SolverBody<N> {
     }
 
     /// A dynamic body under gravity and its own forces.
-    pub(crate) fn dynamic(slot: u32, body: &Body<N>, gravity: Vector<N>) -> Self {
+    pub(crate) fn dynamic(slot: u32, body: &Body<N>, gravity: Vector<N>, added_moment: f64) -> Self {
         let mut inverse_sqrt_moments = [0.0; MAX_PLANES];
         for (k, (i, j)) in planes::all(N).enumerate() {
-            inverse_sqrt_moments[k] = 1.0 / body.inertia.plane_moment(i, j).sqrt();
+            inverse_sqrt_moments[k] = 1.0 / (body.inertia.plane_moment(i, j) + added_moment).sqrt();
         }
         let frame = body.inertia.isotropic.is_none().then(|| body.rotation * body.inertia.body_from_principal);
         Self {
@@ -79,6 +82,7 @@ impl<const N: usize> SolverBody<N> {
             inverse_sqrt_mass: body.inverse_mass.sqrt(),
             frame,
             inverse_sqrt_moments,
+            added_moment,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
@@ -140,6 +144,11 @@ impl<const N: usize> SolverBody<N> {
     /// The angular momentum of a scaled angular velocity, in the world: √I times it.
     pub(crate) fn momentum_of(&self, scaled: &[Real]) -> Bivector<N> {
         self.in_world(scaled, |k| 1.0 / self.inverse_sqrt_moments[k])
+    }
+
+    /// The share of [`SolverBody::momentum_of`] that the body's own inertia has.
+    pub(crate) fn own_momentum_of(&self, scaled: &[Real]) -> Bivector<N> {
+        self.in_world(scaled, |k| 1.0 / self.inverse_sqrt_moments[k] - self.added_moment * self.inverse_sqrt_moments[k])
     }
 
     fn in_world(&self, scaled: &[Real], factor: impl Fn(usize) -> f64) -> Bivector<N> {

@@ -8,6 +8,7 @@ use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
 use super::bodies::{MAX_PLANES, Sizes, SolverBody};
 use super::lanes::Real;
+use crate::body::Body;
 use crate::free_top::free_rotation_step;
 
 /// An anisotropic body during one step.
@@ -28,13 +29,34 @@ pub(crate) struct Gyro<const N: usize> {
 
 impl<const N: usize> Gyro<N> {
     pub(crate) fn new(
-        body: usize,
+        row: usize,
         world_from_principal: Rotation<N>,
-        moments: Vector<N>,
-        momentum: Bivector<N>,
-        torque: Bivector<N>,
+        mut moments: Vector<N>,
+        body: &Body<N>,
+        added_moment: f64,
     ) -> Self {
-        Self { body, world_from_principal, moments, momentum_at_start: momentum, torque, precession: [0.0; MAX_PLANES] }
+        let mut momentum_at_start = body.angular_momentum;
+        if added_moment > 0.0 {
+            // A plane's moment is the sum of its axes'.
+            moments = Vector::from_fn(|i| moments[i] + 0.5 * added_moment);
+            momentum_at_start += body.angular_velocity * added_moment;
+        }
+        let torque = body.torque;
+        Self { body: row, world_from_principal, moments, momentum_at_start, torque, precession: [0.0; MAX_PLANES] }
+    }
+
+    /// Angular momentum of the body with its own inertia, world frame, at the end of the step.
+    pub(crate) fn own_momentum(&self, body: &SolverBody<N>, state: &[Real], elapsed: f64) -> Bivector<N> {
+        let momentum = self.momentum(body, state, elapsed);
+        if body.added_moment == 0.0 {
+            return momentum;
+        }
+        let local = self.world_from_principal.inverse_rotate_bivector(&momentum);
+        let own = local.scale_planes(|i, j| {
+            let whole = self.moments[i] + self.moments[j];
+            (whole - body.added_moment) / whole
+        });
+        self.world_from_principal.rotate_bivector(&own)
     }
 
     /// J_i, kg·m².
@@ -42,7 +64,7 @@ impl<const N: usize> Gyro<N> {
         &self.moments
     }
 
-    /// Angular momentum now, world frame: that at the start, the torque's share, and the impulses'.
+    /// Angular momentum now with all inertia, world frame: that at the start, the torque's share, and the impulses'.
     pub(crate) fn momentum(&self, body: &SolverBody<N>, state: &[Real], elapsed: f64) -> Bivector<N> {
         let row = self.body * Sizes::<N>::STATE + N;
         let mut impulses = [0.0; MAX_PLANES];

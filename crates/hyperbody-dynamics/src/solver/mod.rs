@@ -39,7 +39,7 @@ use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
 use contacts::{Block, ContactRows, Layout, PassTimes, Passes, Prepare};
 use gyro::Gyro;
-use joints::{Joints, Moment, Moving, Pass};
+use joints::{Joints, Moment, Moving, Pass, Tension};
 use lanes::Lanes;
 pub(crate) use lanes::Real;
 use pressed::Pressed;
@@ -58,6 +58,7 @@ pub(crate) struct Solver<const N: usize> {
     colours: Colours,
     contacts: ContactRows,
     joints: Joints<N>,
+    tension: Tension,
     turning: Turning<N>,
     pressed: Pressed,
     arch: pulp::Arch,
@@ -95,6 +96,7 @@ impl<const N: usize> Solver<N> {
             colours: Colours::default(),
             contacts: ContactRows::default(),
             joints: Joints::default(),
+            tension: Tension::default(),
             turning: Turning::default(),
             pressed: Pressed::default(),
             arch: pulp::Arch::new(),
@@ -116,6 +118,7 @@ impl<const N: usize> Solver<N> {
         self.bodies.clear();
         self.gyros.clear();
         self.damped.clear();
+        self.tension.find(input.joints, input.bodies.slot_count(), h);
         for slot in 0..input.bodies.slot_count() {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             let slot = slot as u32;
@@ -132,13 +135,14 @@ impl<const N: usize> Solver<N> {
                 }
                 continue;
             }
-            self.push_body(body, |body| SolverBody::dynamic(slot, body, input.gravity));
+            let added_moment = self.tension.added(slot, body.inertia.smallest_plane_moment());
+            self.push_body(body, |body| SolverBody::dynamic(slot, body, input.gravity, added_moment));
             let row = self.bodies.len() - 1;
             let steepest = input.tuning.max_speed / input.dt;
             self.bodies[row].acceleration = shortened(self.bodies[row].acceleration, steepest);
             if let Some(frame) = self.bodies[row].frame {
                 let inertia = &body.inertia;
-                self.gyros.push(Gyro::new(row, frame, inertia.moments, body.angular_momentum, body.torque));
+                self.gyros.push(Gyro::new(row, frame, inertia.moments, body, added_moment));
             }
             if body.linear_damping > 0.0 || body.angular_damping > 0.0 {
                 let factor = |rate: f64| 1.0 / (1.0 + h * rate);
@@ -228,7 +232,6 @@ impl<const N: usize> Solver<N> {
 
     fn run_substeps(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
-        let joint_soft = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
         let arch = self.arch;
         self.turning.clear(self.bodies.len());
         self.pressed.clear::<N>(self.bodies.len());
@@ -245,7 +248,7 @@ impl<const N: usize> Solver<N> {
             } else {
                 self.pressed.warm_start::<N>(&mut self.state);
             }
-            self.solve_joints(Pass::Move, substep, h, &joint_soft);
+            self.solve_joints(Pass::Move, substep, h);
             self.solve_contacts(&times);
             self.move_bodies(h, h * f64::from(substep + 1));
             times = PassTimes { push: false, ..after_move(times, substep, h) };
@@ -253,7 +256,7 @@ impl<const N: usize> Solver<N> {
             self.turning.refresh(&self.bodies, &self.state, &times, rows, input.pairs);
             self.refresh_joints(&Moment::new(substep + 1, substep + 1, h));
             self.warm_start_joints(Pass::Settle);
-            self.solve_joints(Pass::Settle, substep, h, &joint_soft);
+            self.solve_joints(Pass::Settle, substep, h);
             self.solve_contacts(&times);
             if substep + 1 == input.substeps {
                 arch.dispatch(|| Passes::<N>::bounce(&mut self.contacts, &mut self.state, &times));
@@ -277,13 +280,13 @@ impl<const N: usize> Solver<N> {
         self.joints.warm_start(&mut moving, pass);
     }
 
-    fn solve_joints(&mut self, pass: Pass, substep: u32, h: f64, stiff: &Softness) {
+    fn solve_joints(&mut self, pass: Pass, substep: u32, h: f64) {
         let mut moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
-        match pass {
-            Pass::Move => self.joints.look_ahead(&moving, &Moment::new(substep, substep + 1, h)),
-            Pass::Settle => {}
+        let moment = Moment::new(substep, substep + 1, h);
+        if matches!(pass, Pass::Move) {
+            self.joints.look_ahead(&moving, &moment);
         }
-        self.joints.solve(&mut moving, pass, h, stiff);
+        self.joints.solve(&mut moving, pass, &moment);
         if matches!(pass, Pass::Settle) {
             self.joints.add_up();
         }
@@ -373,6 +376,7 @@ fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
     SolverBody {
         slot: u32::MAX,
         inverse_sqrt_mass: 0.0,
+        added_moment: 0.0,
         frame: None,
         inverse_sqrt_moments: [0.0; bodies::MAX_PLANES],
         centre: contact.manifold.points().first().map_or(Vector::ZERO, |point| point.position),

@@ -14,12 +14,25 @@ pub(crate) struct Softness {
 }
 
 impl Softness {
-    /// For a spring of `hz`, capped at a quarter of the substep rate, beyond which the spring would ring.
+    /// Does not give way, and does not draw back.
+    pub(crate) const RIGID: Self = Self { bias_rate: 0.0, mass_scale: 1.0, impulse_scale: 0.0 };
+
+    /// For a spring of `hz`, capped at a quarter of the substep rate, beyond which a sweep over such springs would ring.
     pub(crate) fn new(hz: f64, damping_ratio: f64, h: f64) -> Self {
-        let omega = std::f64::consts::TAU * hz.min(0.25 / h);
+        Self::uncapped(hz.min(0.25 / h), damping_ratio, h)
+    }
+
+    /// For springs that are solved together.
+    pub(crate) fn uncapped(hz: f64, damping_ratio: f64, h: f64) -> Self {
+        let omega = std::f64::consts::TAU * hz;
         let a1 = 2.0 * damping_ratio + h * omega;
         let a2 = h * omega * a1;
         let a3 = 1.0 / (1.0 + a2);
         Self { bias_rate: omega / a1, mass_scale: a2 * a3, impulse_scale: a3 }
+    }
+
+    /// What the row gives way, in parts of its response: 1/a2.
+    pub(crate) fn compliance(&self) -> f64 {
+        self.impulse_scale / self.mass_scale
     }
 }

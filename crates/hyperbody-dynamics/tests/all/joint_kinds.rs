@@ -149,7 +149,7 @@ fn limits<const N: usize>() {
     }
     assert!(least > -0.605, "fell to {least} rad, beyond the limit");
     assert!((angle(&world) + 0.6).abs() < 2e-3, "rests at {} rad", angle(&world));
-    let spin = Bivector::plane(0, 1, 5.2);
+    let spin = Bivector::plane(0, 1, 8.0);
     let centre = world.body(rod).unwrap().position();
     world.body_mut(rod).unwrap().set_angular_velocity(spin).unwrap();
     world.body_mut(rod).unwrap().set_velocity(spin.act_on(centre)).unwrap();

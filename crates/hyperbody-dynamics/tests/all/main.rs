@@ -15,6 +15,7 @@ mod free_top_stability;
 mod free_top_step;
 mod joint_hand;
 mod joint_kinds;
+mod joint_loads;
 mod materials;
 mod queries;
 mod queries_shapes;

@@ -51,6 +51,27 @@ pub(super) fn solve(factors: &[f64], count: usize, y: &mut [f64]) {
     }
 }
 
+/// Solves K X = Y in place for all columns of a matrix of `count` rows.
+pub(super) fn solve_columns(factors: &[f64], count: usize, y: &mut [f64], columns: usize) {
+    for i in 0..count {
+        for k in 0..i {
+            let (head, tail) = y.split_at_mut(i * columns);
+            let source = &head[k * columns..(k + 1) * columns];
+            tail[..columns].iter_mut().zip(source).for_each(|(y, source)| *y -= factors[len(i) + k] * source);
+        }
+    }
+    for i in 0..count {
+        y[i * columns..(i + 1) * columns].iter_mut().for_each(|y| *y *= factors[len(i) + i]);
+    }
+    for i in (0..count).rev() {
+        for k in i + 1..count {
+            let (head, tail) = y.split_at_mut(k * columns);
+            let target = &mut head[i * columns..(i + 1) * columns];
+            target.iter_mut().zip(&tail[..columns]).for_each(|(y, source)| *y -= factors[len(k) + i] * source);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

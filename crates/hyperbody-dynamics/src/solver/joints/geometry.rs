@@ -4,7 +4,7 @@ use hyperbody_math::{Bivector, Matrix, Rotation, Vector};
 
 use super::place::{Place, Spot};
 use super::{JointRows, Row};
-use crate::joint::{Coordinate, Role};
+use crate::joint::Coordinate;
 use crate::solver::bodies::{MAX_PLANES, SolverBody};
 
 /// How the second frame of a joint lies in the first.
@@ -138,10 +138,6 @@ impl<const N: usize> Geometry<N> {
                 row.arm_a = arm(a, body_a, offset_a, direction);
                 row.arm_b = arm(b, body_b, self.offset_b, direction);
             }
-        }
-        if !matches!(row.spec.role, Role::Held(_)) {
-            let response = response(row, row, body_a, body_b);
-            row.mass = if response > 0.0 { 1.0 / response } else { 0.0 };
         }
     }
 }

@@ -2,9 +2,12 @@
 //!
 //! A joint is a list of scalar rows (`joint/rows.rs`): a coordinate of its second frame in the first, and what becomes of
 //! it. A row measures its coordinate's rate by a direction and a lever on each body: u·(v_b − v_a) + B_b·ω_b − B_a·ω_a,
-//! with u = 0 for turns. The rows that are held at a value are solved together, through the factors of their response
-//! matrix: a ball's N, a hinge's N + N(N−1)/2 − 1, a weld's all. Limits, motors and springs are solved one by one before them,
-//! so that what is held has the last word.
+//! with u = 0 for turns.
+//!
+//! Joints that hang together are solved together, by factors of their linear system (`cluster`, `factor`): a chain of a hundred
+//! links is as firm as one joint. Limits and motors are rows of that system too, as long as they press and are not at their
+//! strength. Only nets too large for that are swept joint by joint, as in engines that know no other way; their joints are softer, because
+//! a sweep over springs is stable up to a stiffness only.
 //!
 //! # What the substep does, and why it keeps energy
 //!
@@ -20,22 +23,30 @@
 //!
 //! Half of what holds a body on its curve is applied in each pass, so each has impulses of its own that start the next.
 //! Gravity enters whole before the move; that is the symmetric method up to a change of variables that does not grow.
-//! What is left of the gap is drawn in by a stiff spring, which does lose energy, in proportion to how fast the load varies.
+//! What is left of the gap is drawn in by a stiff spring, which does lose energy, in proportion to how fast the load varies. Where joints are swept,
+//! what they are expected to do beyond their tangents leads astray: there both passes mend one impulse, at first order.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `place` | where jointed bodies are, and will be, within the step |
 //! | `geometry` | coordinates of a joint and their levers |
-//! | `block` | factors of the response of the rows that are held |
+//! | `cluster` | which joints are solved together, and in which order |
+//! | `factor`, `block` | factors of a cluster's system, and of a joint's own part |
+//! | `aim` | what each row wants, and the impulses it may have |
 //! | `solve` | the passes |
+//! | `tension` | light bodies under great loads |
 
+mod aim;
 mod block;
+mod cluster;
+mod factor;
 mod geometry;
 mod place;
 #[cfg(test)]
 mod rank;
 
 mod solve;
+mod tension;
 
 use hyperbody_math::{Bivector, Matrix, Vector};
 
@@ -43,12 +54,15 @@ use super::bodies::{MAX_PLANES, SolverBody};
 use super::gyro::Gyro;
 use super::softness::Softness;
 use super::{Real, SolverInput};
+use crate::Tuning;
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::{Joint, RowSpec, WORLD};
+use cluster::{Link, Plan};
 pub(crate) use place::Moment;
 use place::Place;
 pub(crate) use solve::Pass;
+pub(crate) use tension::Tension;
 
 /// One scalar row of a joint, at the present place.
 #[derive(Clone, Copy, Debug)]
@@ -67,8 +81,14 @@ struct Row<const N: usize> {
     value: f64,
     /// What it changes beyond its tangent within the substep, over h.
     curve: f64,
-    /// 1 / response, for rows that are solved alone.
-    mass: f64,
+    /// What an impulse changes the rate by, 1/kg or 1/(kg·m²).
+    response: f64,
+    /// What the row gives way, as soft springs do, beside its response.
+    compliance: f64,
+    /// What the spring of held rows asks for beside, m/s or rad/s.
+    drawn: f64,
+    /// Whether it gets an impulse of the system that is factored.
+    engaged: bool,
     /// Impulses of this substep before and after the move, N·s or N·m·s.
     impulse: f64,
     settle: f64,
@@ -91,10 +111,14 @@ struct JointRows<const N: usize> {
     first: usize,
     held: usize,
     end: usize,
-    /// First of the factors of the held rows.
-    factors: usize,
-    /// Of soft joints.
-    soft: Option<Softness>,
+    /// First of what its rows have to do with each other: the lower triangle of K, row by row.
+    own: usize,
+    /// Spring of the held rows.
+    soft: Softness,
+    /// Whether that is the spring of a soft joint.
+    is_soft: bool,
+    /// Whether it is solved together with all joints around it.
+    exact: bool,
     /// Most impulse a substep of soft joints, N·s and N·m·s.
     max_impulse: f64,
     max_twist: f64,
@@ -113,10 +137,21 @@ pub(crate) struct Joints<const N: usize> {
     place_of: Vec<u32>,
     joints: Vec<JointRows<N>>,
     rows: Vec<Row<N>>,
+    /// What the rows of each joint have to do with each other.
+    own: Vec<f64>,
+    links: Vec<Link>,
+    plan: Plan,
+    /// Factors of all clusters, and vectors that their making and solving needs.
     factors: Vec<f64>,
+    scratch: Vec<f64>,
+    unknowns: Vec<f64>,
 }
 
 const NONE: u32 = u32::MAX;
+
+/// How much stiffer joints are where they are solved exactly: the uppermost joint of a chain of a hundred links, with a hundred times
+/// a link's mass at its end, gives 4 mm.
+const EXACT_STIFFNESS: f64 = 2.5;
 
 impl<const N: usize> Joints<N> {
     /// Takes the joints of the world that have something to do.
@@ -126,7 +161,8 @@ impl<const N: usize> Joints<N> {
         self.place_of.resize(bodies.len(), NONE);
         self.joints.clear();
         self.rows.clear();
-        let mut factors = 0;
+        self.links.clear();
+        let mut own = 0;
         for (handle, joint) in input.joints.iter() {
             let a = input.bodies.at(joint.body_a);
             let Some(b) = input.bodies.at(joint.body_b) else { continue };
@@ -138,11 +174,47 @@ impl<const N: usize> Joints<N> {
             let (place_a, place_b) = (self.place(a, gyros), self.place(Some(b), gyros));
             let first = self.rows.len();
             self.rows.extend(joint.rows.iter().zip(&joint.impulses).map(|(&spec, &impulses)| Row::new(spec, impulses)));
-            self.joints.push(JointRows::new(handle.index, joint, (a, place_a), (b, place_b), (first, factors), h));
-            factors += block::len(joint.held);
+            if self.rows.len() > first {
+                self.link(joint, [place_a, place_b], bodies);
+            }
+            self.joints.push(JointRows::new(handle.index, joint, (a, place_a), (b, place_b), (first, own), h));
+            own += block::len(joint.rows.len());
         }
-        self.factors.clear();
-        self.factors.resize(factors, 0.0);
+        self.own.clear();
+        self.own.resize(own, 0.0);
+        self.plan.update(&self.links, bodies.len(), input.tuning.joint_budget);
+        self.factors.resize(self.plan.values as usize, 0.0);
+        for cluster in &self.plan.clusters {
+            for node in self.plan.nodes_of(cluster) {
+                self.joints[node.joint as usize].exact = cluster.whole;
+            }
+        }
+        self.spread_stiffness(input.tuning, h);
+    }
+
+    /// Tells the plan of the joint that comes next.
+    #[expect(clippy::cast_possible_truncation, reason = "joints and bodies are counted in u32")]
+    fn link(&mut self, joint: &Joint<N>, places: [usize; 2], bodies: &[SolverBody<N>]) {
+        let moving = |place: usize| match self.places[place].row {
+            row if bodies[row].inverse_sqrt_mass > 0.0 => row as u32,
+            _ => 0,
+        };
+        self.links.push(Link {
+            joint: self.joints.len() as u32,
+            apart: joint.def.softness.is_some(),
+            bounded: joint.rows.len() > joint.held,
+            bodies: places.map(moving),
+            rows: joint.rows.len() as u32,
+        });
+    }
+
+    /// A system that is solved exactly can be as stiff as one likes; a sweep over its parts cannot.
+    fn spread_stiffness(&mut self, tuning: &Tuning, h: f64) {
+        let exact = Softness::uncapped(EXACT_STIFFNESS * tuning.joint_hz, tuning.joint_damping_ratio, h);
+        let swept = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
+        for joint in self.joints.iter_mut().filter(|joint| !joint.is_soft) {
+            joint.soft = if joint.exact { exact } else { swept };
+        }
     }
 
     /// The place of a body; of what no impulse moves, a new one.
@@ -193,7 +265,10 @@ impl<const N: usize> Row<N> {
             acceleration: 0.0,
             value: 0.0,
             curve: 0.0,
-            mass: 0.0,
+            response: 0.0,
+            compliance: 0.0,
+            drawn: 0.0,
+            engaged: true,
             impulse,
             settle,
         }
@@ -206,7 +281,7 @@ impl<const N: usize> JointRows<N> {
         joint: &Joint<N>,
         (body_a, a): (Option<&Body<N>>, usize),
         (body_b, b): (&Body<N>, usize),
-        (first, factors): (usize, usize),
+        (first, own): (usize, usize),
         h: f64,
     ) -> Self {
         let (frame_a, frame_b) = joint.frames();
@@ -227,8 +302,10 @@ impl<const N: usize> JointRows<N> {
             first,
             held: first + joint.held,
             end: first + joint.rows.len(),
-            factors,
-            soft: def.softness.map(|(hz, damping_ratio)| Softness::new(hz, damping_ratio, h)),
+            own,
+            soft: def.softness.map_or(Softness::RIGID, |(hz, damping_ratio)| Softness::new(hz, damping_ratio, h)),
+            is_soft: def.softness.is_some(),
+            exact: false,
             max_impulse: def.max_force * h,
             max_twist: def.max_torque * h,
             step_impulse: Vector::ZERO,

@@ -6,6 +6,7 @@ use super::place::Place;
 use super::{JointRows, Row};
 use crate::joint::{Joint, JointDef};
 use crate::solver::bodies::{MAX_PLANES, SolverBody};
+use crate::solver::softness::Softness;
 use crate::{BodyHandle, joint::WORLD};
 
 const BODY: BodyHandle = BodyHandle { index: 0, generation: 0 };
@@ -41,6 +42,7 @@ fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize) {
         inverse_sqrt_mass: 1.0,
         frame: None,
         inverse_sqrt_moments: [1.0; MAX_PLANES],
+        added_moment: 0.0,
         centre: Vector::ZERO,
         velocity: Vector::ZERO,
         angular_velocity: Bivector::ZERO,
@@ -64,8 +66,10 @@ fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize) {
         first: 0,
         held: joint.held,
         end: joint.rows.len(),
-        factors: 0,
-        soft: None,
+        own: 0,
+        soft: Softness::RIGID,
+        is_soft: false,
+        exact: false,
         max_impulse: f64::INFINITY,
         max_twist: f64::INFINITY,
         step_impulse: Vector::ZERO,

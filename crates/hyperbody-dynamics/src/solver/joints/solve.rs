@@ -4,16 +4,28 @@ use std::f64::consts::TAU;
 
 use hyperbody_math::Bivector;
 
+use super::aim::PUSH_BACK;
+use super::cluster::Cluster;
+use super::factor::{self, Parts};
 use super::geometry::response;
 use super::place::{Moment, Place};
 use super::{JointRows, Joints, Moving, Row, block};
 use crate::joint::{Coordinate, Role};
 use crate::solver::Real;
 use crate::solver::bodies::{Sizes, SolverBody};
-use crate::solver::softness::Softness;
 
 /// Most rows of a joint that are held: all of 6D.
 const MOST_HELD: usize = 6 + 15 + 1;
+
+/// Times that a cluster may change its mind about which limits press and which motors are at their strength.
+const ROUNDS: usize = 6;
+
+/// How often a cluster may look ahead, and how far it may miss the place that it foresaw, m or rad, without looking again.
+const LOOKS: usize = 4;
+const FORESEEN: f64 = 1e-4;
+
+/// Least share of a spring's response that its joint can leave it.
+const LEAST_FREE: f64 = 1e-6;
 
 /// Which pass.
 #[derive(Clone, Copy, Debug)]
@@ -23,12 +35,6 @@ pub(crate) enum Pass {
     /// After.
     Settle,
 }
-
-/// Gaps of a joint between which it stops being taken for solved, m.
-const FIRM: std::ops::Range<f64> = 0.001..0.003;
-
-/// Share of its impulses that a joint forgets a pass while it is not solved at all.
-const FORGOTTEN: f64 = 0.1;
 
 impl<const N: usize> Joints<N> {
     /// Makes all rows at the present place.
@@ -42,18 +48,19 @@ impl<const N: usize> Joints<N> {
             let geometry = joint.geometry(&a.now, &b.now, rows);
             joint.axes = geometry.axes;
             rows.iter_mut().for_each(|row| geometry.fill(row, a, b, moving.bodies));
-            let held = joint.held - joint.first;
-            let factors = &mut self.factors[joint.factors..joint.factors + block::len(held)];
-            let (body_a, body_b) = (&moving.bodies[a.row], &moving.bodies[b.row]);
-            let mut at = 0;
-            for i in 0..held {
-                for j in 0..=i {
-                    factors[at] = response(&rows[i], &rows[j], body_a, body_b);
-                    at += 1;
-                }
-            }
-            block::factorize(factors, held);
+            let own = &mut self.own[joint.own..][..block::len(rows.len())];
+            joint.weigh(rows, own, (&moving.bodies[a.row], &moving.bodies[b.row]), moment.h);
         }
+        for index in 0..self.plan.clusters.len() {
+            self.factorize(index, moving);
+        }
+    }
+
+    fn factorize(&mut self, cluster: usize, moving: &Moving<'_, N>) {
+        let (joints, rows, own) = (&self.joints, &self.rows, &self.own);
+        let parts = Parts { joints, rows, own, bodies: moving.bodies };
+        let cluster = &self.plan.clusters[cluster];
+        factor::factorize(&self.plan, cluster, &parts, &mut self.factors, &mut self.scratch);
     }
 
     /// Accelerations act for one more substep of length `h`, at the same place.
@@ -71,15 +78,10 @@ impl<const N: usize> Joints<N> {
     pub(crate) fn warm_start(&mut self, moving: &mut Moving<'_, N>, pass: Pass) {
         for joint in &self.joints {
             let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
-            let rows = &mut self.rows[joint.first..joint.end];
-            let kept = 1.0 - FORGOTTEN * (1.0 - joint.firmness(rows));
-            for row in rows {
-                row.impulse *= kept;
-                row.settle *= kept;
+            for row in &mut self.rows[joint.first..joint.end] {
                 let impulse = match pass {
                     Pass::Move => {
-                        // Limits, motors and springs have one impulse, which both passes mend.
-                        if joint.soft.is_some() || !matches!(row.spec.role, Role::Held(_)) {
+                        if !joint.splits(row) {
                             row.impulse += row.settle;
                             row.settle = 0.0;
                         }
@@ -97,37 +99,137 @@ impl<const N: usize> Joints<N> {
         for place in &mut self.places {
             place.look_ahead(moving, moment);
         }
-        for joint in &self.joints {
-            let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
-            let rows = &mut self.rows[joint.first..joint.end];
-            let ahead = joint.geometry(&a.next, &b.next, rows);
-            let firm = joint.firmness(rows);
-            for row in rows {
-                let mut change = ahead.value(row.spec.coordinate) - row.value;
-                if matches!(row.spec.coordinate, Coordinate::Angle(..)) {
-                    // The short way round where the angle jumps from π to −π.
-                    change -= std::f64::consts::TAU * (change / std::f64::consts::TAU).round();
+        for joint in self.joints.iter().filter(|joint| joint.exact || joint.is_soft) {
+            joint.bend(&self.places, &mut self.rows, moving, moment.h);
+        }
+    }
+
+    /// One sweep over all clusters, forth before the move and back after it.
+    pub(crate) fn solve(&mut self, moving: &mut Moving<'_, N>, pass: Pass, moment: &Moment) {
+        let count = self.plan.clusters.len();
+        for index in 0..count {
+            let index = match pass {
+                Pass::Move => index,
+                Pass::Settle => count - 1 - index,
+            };
+            let looks_ahead = matches!(pass, Pass::Move) && self.plan.clusters[index].whole;
+            for _ in 0..LOOKS {
+                let error = self.solve_cluster(index, moving, pass, moment.h);
+                if !looks_ahead || error * moment.h < FORESEEN {
+                    break;
                 }
-                row.curve = firm * (change / moment.h - row.rate(a, b, moving));
+                self.look_further(index, moving, moment);
             }
         }
     }
 
-    /// One sweep over all joints, forth before the move and back after it.
-    pub(crate) fn solve(&mut self, moving: &mut Moving<'_, N>, pass: Pass, h: f64, stiff: &Softness) {
-        let count = self.joints.len();
-        for index in 0..count {
-            let joint = match pass {
-                Pass::Move => &self.joints[index],
-                Pass::Settle => &self.joints[count - 1 - index],
-            };
-            let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
-            let (held, alone) = self.rows[joint.first..joint.end].split_at_mut(joint.held - joint.first);
-            for row in alone {
-                row.solve(a, b, moving, pass, h, stiff);
+    /// Looks where a cluster goes once more: what it was thought to do was wrong.
+    fn look_further(&mut self, cluster: usize, moving: &Moving<'_, N>, moment: &Moment) {
+        for node in self.plan.nodes_of(&self.plan.clusters[cluster]) {
+            let joint = &self.joints[node.joint as usize];
+            for place in [joint.a, joint.b] {
+                self.places[place].look_ahead(moving, moment);
             }
-            let factors = &self.factors[joint.factors..joint.factors + block::len(held.len())];
-            joint.solve_held(held, factors, (a, b), moving, pass, stiff);
+        }
+        for node in self.plan.nodes_of(&self.plan.clusters[cluster]) {
+            let joint = &self.joints[node.joint as usize];
+            joint.bend(&self.places, &mut self.rows, moving, moment.h);
+        }
+    }
+
+    /// Solves the joints of a cluster together, with limits and motors within their ranges: rows that would leave theirs are set to
+    /// its end and taken out of the system, rows that should come in are taken in, until nothing changes. Returns the largest error of
+    /// a rate that it found, m/s or rad/s.
+    fn solve_cluster(&mut self, index: usize, moving: &mut Moving<'_, N>, pass: Pass, h: f64) -> f64 {
+        let cluster = self.plan.clusters[index].clone();
+        self.unknowns.clear();
+        self.unknowns.resize(cluster.unknowns as usize, 0.0);
+        let (mut solved, mut largest) = (false, 0.0);
+        for round in 0..ROUNDS {
+            let (changed, error) = self.wish(&cluster, moving, pass, h);
+            if round == 0 {
+                largest = error;
+            }
+            if solved && !changed {
+                break;
+            }
+            if changed {
+                self.factorize(index, moving);
+            }
+            factor::solve(&self.plan, &cluster, &self.factors, &mut self.unknowns, &mut self.scratch);
+            solved = round + 1 == ROUNDS || !self.stop_at_ends(&cluster, moving, pass, h);
+            if solved {
+                self.apply(&cluster, moving, pass, h);
+            }
+            if !cluster.bounded {
+                break;
+            }
+        }
+        largest
+    }
+
+    /// Writes what the rows of a cluster want; whether rows came in or went out.
+    fn wish(&mut self, cluster: &Cluster, moving: &Moving<'_, N>, pass: Pass, h: f64) -> (bool, f64) {
+        let (mut changed, mut largest) = (false, 0.0_f64);
+        for node in self.plan.nodes_of(cluster) {
+            let joint = &self.joints[node.joint as usize];
+            let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
+            let unknowns = node.of(&mut self.unknowns);
+            let rows = &mut self.rows[joint.first..joint.end];
+            if matches!(pass, Pass::Move) {
+                joint.draw_in(rows, &self.own[joint.own..]);
+            }
+            for (unknown, row) in unknowns.iter_mut().zip(rows) {
+                let error = row.error(row.rate(a, b, moving), pass, h, joint);
+                let engaged = error.is_some_and(|error| row.engages(error, h));
+                changed |= engaged != row.engaged;
+                row.engaged = engaged;
+                *unknown = if engaged { -error.unwrap_or(0.0) } else { 0.0 };
+                largest = largest.max(unknown.abs());
+            }
+        }
+        (changed, largest)
+    }
+
+    /// Sets rows that would leave their range to its end; whether there were some.
+    fn stop_at_ends(&mut self, cluster: &Cluster, moving: &mut Moving<'_, N>, pass: Pass, h: f64) -> bool {
+        let mut stopped = false;
+        if !cluster.bounded {
+            return false;
+        }
+        for node in self.plan.nodes_of(cluster) {
+            let joint = &self.joints[node.joint as usize];
+            let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
+            let unknowns = node.of(&mut self.unknowns);
+            let rows = self.rows[joint.first..joint.end].iter_mut();
+            for (unknown, row) in unknowns.iter().zip(rows).filter(|(_, row)| row.engaged) {
+                let (least, most) = row.range(h);
+                let impulse = row.impulse + row.settle;
+                let wanted = (impulse + unknown).clamp(least, most);
+                if wanted != impulse + unknown {
+                    row.add(a, b, moving, pass, wanted - impulse);
+                    stopped = true;
+                }
+            }
+        }
+        stopped
+    }
+
+    /// Applies the solution.
+    fn apply(&mut self, cluster: &Cluster, moving: &mut Moving<'_, N>, pass: Pass, h: f64) {
+        for node in self.plan.nodes_of(cluster) {
+            let joint = &self.joints[node.joint as usize];
+            let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
+            let rows = &mut self.rows[joint.first..joint.end];
+            let unknowns = node.of(&mut self.unknowns);
+            if joint.is_soft {
+                joint.weaken(rows, unknowns);
+            }
+            for (&mut unknown, row) in unknowns.iter_mut().zip(rows) {
+                let (least, most) = row.range(h);
+                let impulse = row.impulse + row.settle;
+                row.add(a, b, moving, pass, (impulse + unknown).clamp(least, most) - impulse);
+            }
         }
     }
 
@@ -154,70 +256,99 @@ impl<const N: usize> Joints<N> {
 }
 
 impl<const N: usize> JointRows<N> {
-    /// One where the held rows of a joint are nearly met, zero where they are far off. One sweep does not solve a large net; what its
-    /// joints would change beyond their tangents, and what they pressed before, then lead away from the solution instead of to it. Soft joints have
-    /// gaps by design.
-    fn firmness(&self, rows: &[Row<N>]) -> f64 {
-        if self.soft.is_some() {
-            return 1.0;
-        }
-        let mut gap: f64 = 0.0;
-        for row in rows {
-            if let (Role::Held(place), Coordinate::Point(_) | Coordinate::Slide(_) | Coordinate::Length) =
-                (row.spec.role, row.spec.coordinate)
-            {
-                gap = gap.max((row.value - place).abs());
-            }
-        }
-        ((FIRM.end - gap) / (FIRM.end - FIRM.start)).clamp(0.0, 1.0)
+    /// Whether a row has impulses of its own in each pass; limits, motors and springs have one, which both passes mend, and so has
+    /// whatever is not solved exactly.
+    fn splits(&self, row: &Row<N>) -> bool {
+        self.exact && !self.is_soft && matches!(row.spec.role, Role::Held(_))
     }
 
-    /// Solves the held rows together.
-    fn solve_held(
-        &self,
-        rows: &mut [Row<N>],
-        factors: &[f64],
-        (a, b): (&Place<N>, &Place<N>),
-        moving: &mut Moving<'_, N>,
-        pass: Pass,
-        stiff: &Softness,
-    ) {
-        if rows.is_empty() || (self.soft.is_some() && matches!(pass, Pass::Settle)) {
+    /// Finds what each coordinate changes beyond its tangent on the way to where the bodies would be next.
+    fn bend(&self, places: &[Place<N>], rows: &mut [Row<N>], moving: &Moving<'_, N>, h: f64) {
+        let (a, b) = (&places[self.a], &places[self.b]);
+        let rows = &mut rows[self.first..self.end];
+        let ahead = self.geometry(&a.next, &b.next, rows);
+        for row in rows {
+            let mut change = ahead.value(row.spec.coordinate) - row.value;
+            if matches!(row.spec.coordinate, Coordinate::Angle(..)) {
+                // The short way round where the angle jumps from π to −π.
+                change -= TAU * (change / TAU).round();
+            }
+            row.curve = change / h - row.rate(a, b, moving);
+        }
+    }
+
+    /// Finds what the rows have to do with each other, and what those give way that are not held.
+    fn weigh(&self, rows: &mut [Row<N>], own: &mut [f64], (a, b): (&SolverBody<N>, &SolverBody<N>), h: f64) {
+        let mut at = 0;
+        for i in 0..rows.len() {
+            for j in 0..=i {
+                own[at] = response(&rows[i], &rows[j], a, b);
+                at += 1;
+            }
+            rows[i].response = own[at - 1];
+        }
+        let of_masses = a.inverse_sqrt_mass * a.inverse_sqrt_mass + b.inverse_sqrt_mass * b.inverse_sqrt_mass;
+        for index in 0..rows.len() {
+            let row = &rows[index];
+            let turns = matches!(row.spec.coordinate, Coordinate::Turn(..));
+            let response = match row.spec.role {
+                Role::Held(_) if !self.exact => 0.0,
+                // Not by levers, or what hangs on a long arm would give way far too much.
+                Role::Held(_) if !turns => of_masses,
+                Role::Sprung(_) => self.response_while_held(own, index),
+                _ => row.response,
+            };
+            rows[index].compliance = rows[index].compliance(response, &self.soft, h);
+        }
+    }
+
+    /// Finds what the springs of the held rows ask for: back to their places, as fast as is good, and less the more they bear. Where joints are
+    /// solved by themselves, by a share of K λ, so that they swing at one frequency in every direction.
+    fn draw_in(&self, rows: &mut [Row<N>], own: &[f64]) {
+        let held = self.held - self.first;
+        let mut fastest_sq = 0.0;
+        for row in &mut rows[..held] {
+            let Role::Held(place) = row.spec.role else { continue };
+            row.drawn = self.soft.bias_rate * (row.value - place);
+            fastest_sq += row.drawn * row.drawn;
+        }
+        if fastest_sq > PUSH_BACK * PUSH_BACK && !self.is_soft {
+            let slower = PUSH_BACK / fastest_sq.sqrt();
+            rows[..held].iter_mut().for_each(|row| row.drawn *= slower);
+        }
+        if self.exact {
+            rows[..held].iter_mut().for_each(|row| row.drawn += row.compliance * row.impulse);
             return;
         }
-        let soft = self.soft.as_ref().unwrap_or(stiff);
-        let mut change = [0.0; MOST_HELD];
-        for (wanted, row) in change.iter_mut().zip(rows.iter()) {
-            let rate = row.rate(a, b, moving);
-            *wanted = match (pass, row.spec.role) {
-                (Pass::Move, Role::Held(place)) => rate + row.curve + soft.bias_rate * (row.value - place),
-                _ => rate,
-            };
+        let compliance = self.soft.compliance();
+        for i in 0..held {
+            let of_all = (0..held).map(|j| own[block::len(i.max(j)) + i.min(j)] * rows[j].impulse);
+            let given: f64 = of_all.sum();
+            rows[i].drawn += compliance * given;
         }
-        block::solve(factors, rows.len(), &mut change);
-        for (change, row) in change.iter_mut().zip(rows.iter()) {
-            *change = match pass {
-                Pass::Move => -soft.mass_scale * *change - soft.impulse_scale * row.impulse,
-                Pass::Settle => -*change,
-            };
-        }
-        if self.soft.is_some() {
-            self.weaken(rows, &mut change);
-        }
-        for (row, change) in rows.iter_mut().zip(change) {
-            match pass {
-                Pass::Move => row.impulse += change,
-                Pass::Settle => row.settle += change,
-            }
-            row.apply(a, b, moving, change);
-        }
+    }
+
+    /// What an impulse changes the rate of a row by while the held rows of the joint hold: K_rr − K_rh K_hh⁻¹ K_hr.
+    fn response_while_held(&self, own: &[f64], row: usize) -> f64 {
+        let held = self.held - self.first;
+        let mut factors = [0.0; block::len(MOST_HELD)];
+        factors[..block::len(held)].copy_from_slice(&own[..block::len(held)]);
+        block::factorize(&mut factors, held);
+        let pull = &own[block::len(row)..][..held];
+        let mut answer = [0.0; MOST_HELD];
+        answer[..held].copy_from_slice(pull);
+        block::solve(&factors, held, &mut answer);
+        let given: f64 = pull.iter().zip(&answer).map(|(pull, answer)| pull * answer).sum();
+        let whole = own[block::len(row) + row];
+        (whole - given).max(LEAST_FREE * whole)
     }
 
     /// Keeps a soft joint within its strength, whatever the direction.
-    fn weaken(&self, rows: &[Row<N>], change: &mut [f64; MOST_HELD]) {
+    fn weaken(&self, rows: &[Row<N>], change: &mut [f64]) {
         let turns = |row: &Row<N>| matches!(row.spec.coordinate, Coordinate::Turn(..));
+        let held = &rows[..self.held - self.first];
         for (turning, limit) in [(false, self.max_impulse), (true, self.max_twist)] {
-            let of_sort = || rows.iter().enumerate().filter(move |(_, row)| turns(row) == turning);
+            let of_sort = || held.iter().enumerate().filter(move |(_, row)| turns(row) == turning);
             let size =
                 of_sort().map(|(k, row)| (row.impulse + change[k]) * (row.impulse + change[k])).sum::<f64>().sqrt();
             if size > limit {
@@ -228,9 +359,6 @@ impl<const N: usize> JointRows<N> {
         }
     }
 }
-
-/// Fastest that a limit pushes back what is beyond it, m/s or rad/s.
-const PUSH_BACK: f64 = 4.0;
 
 impl<const N: usize> Row<N> {
     /// Rate of the coordinate, impulses included.
@@ -255,6 +383,15 @@ impl<const N: usize> Row<N> {
         self.base + on(b, &self.arm_b) - on(a, &self.arm_a)
     }
 
+    /// Takes one more impulse, and applies it.
+    fn add(&mut self, a: &Place<N>, b: &Place<N>, moving: &mut Moving<'_, N>, pass: Pass, impulse: f64) {
+        match pass {
+            Pass::Move => self.impulse += impulse,
+            Pass::Settle => self.settle += impulse,
+        }
+        self.apply(a, b, moving, impulse);
+    }
+
     /// An impulse on b, and its opposite on a.
     fn apply(&self, a: &Place<N>, b: &Place<N>, moving: &mut Moving<'_, N>, impulse: f64) {
         let mut on = |place: &Place<N>, arm: &[f64], impulse: f64| {
@@ -274,55 +411,5 @@ impl<const N: usize> Row<N> {
         };
         on(a, &self.arm_a, -impulse);
         on(b, &self.arm_b, impulse);
-    }
-
-    /// Solves a row by itself: a limit, a motor, a spring.
-    fn solve(&mut self, a: &Place<N>, b: &Place<N>, moving: &mut Moving<'_, N>, pass: Pass, h: f64, stiff: &Softness) {
-        let rate = self.rate(a, b, moving);
-        let mut held = self.impulse + self.settle;
-        let wanted = match self.spec.role {
-            Role::Held(_) => return,
-            Role::AtLeast(least) => held + self.push(rate, self.value - least, 1.0, pass, h, stiff).max(-held),
-            Role::AtMost(greatest) => held - self.push(-rate, greatest - self.value, -1.0, pass, h, stiff).max(held),
-            Role::Driven(motor) => {
-                let limit = motor.max_force * h;
-                (held - self.mass * (rate - motor.speed)).clamp(-limit, limit)
-            }
-            Role::Sprung(spring) => {
-                if matches!(pass, Pass::Settle) {
-                    return;
-                }
-                let soft = Softness::new(spring.hz, spring.damping_ratio, h);
-                let error = rate + self.curve + soft.bias_rate * self.off(spring.target);
-                let limit = spring.max_force * h;
-                (held - soft.mass_scale * self.mass * error - soft.impulse_scale * held).clamp(-limit, limit)
-            }
-        };
-        let change = wanted - held;
-        held = wanted;
-        match pass {
-            Pass::Move => self.impulse = held - self.settle,
-            Pass::Settle => self.settle = held - self.impulse,
-        }
-        self.apply(a, b, moving, change);
-    }
-
-    /// How far the coordinate is from a target; angles the short way round.
-    fn off(&self, target: f64) -> f64 {
-        let off = self.value - target;
-        if matches!(self.spec.coordinate, Coordinate::Angle(..)) { off - TAU * (off / TAU).round() } else { off }
-    }
-
-    /// What a limit adds to its impulse, counted inwards: `room` is the distance to it, closing at −`rate`.
-    fn push(&self, rate: f64, room: f64, sense: f64, pass: Pass, h: f64, stiff: &Softness) -> f64 {
-        let curve = sense * self.curve;
-        match pass {
-            Pass::Move if room > 0.0 => -self.mass * (rate + curve + room / h),
-            Pass::Move => {
-                let bias = (stiff.bias_rate * room).max(-PUSH_BACK);
-                -stiff.mass_scale * self.mass * (rate + curve + bias) - stiff.impulse_scale * sense * self.impulse
-            }
-            Pass::Settle => -self.mass * (rate + (room / h).max(0.0)),
-        }
     }
 }

@@ -1,0 +1,78 @@
+//! What each row of a joint wants: the error that its impulse should remove, and the impulses that it may have.
+
+use std::f64::consts::TAU;
+
+use super::{JointRows, Pass, Row};
+use crate::joint::{Coordinate, Role};
+use crate::solver::softness::Softness;
+
+/// Fastest that anything beyond its place is pushed back, m/s or rad/s.
+pub(super) const PUSH_BACK: f64 = 4.0;
+
+/// What motors give way, in parts of their response: so little that a motor against a limit, or two motors against each other, end at
+/// their strength and not at infinity.
+const MOTOR_COMPLIANCE: f64 = 1e-6;
+
+impl<const N: usize> Row<N> {
+    /// What the row wants its rate to change by, negated; nothing in passes that are not its own. `rate` counts all impulses so far.
+    pub(super) fn error(&self, rate: f64, pass: Pass, h: f64, joint: &JointRows<N>) -> Option<f64> {
+        let (held, impulse) = (&joint.soft, self.impulse + self.settle);
+        match (self.spec.role, pass) {
+            (Role::Held(_), Pass::Settle) => (!joint.is_soft).then_some(rate),
+            (Role::Held(_), Pass::Move) => Some(rate + self.curve + self.drawn),
+            (Role::AtLeast(least), _) => Some(self.towards_limit(rate, self.value - least, 1.0, pass, h, held)),
+            (Role::AtMost(greatest), _) => Some(-self.towards_limit(-rate, greatest - self.value, -1.0, pass, h, held)),
+            (Role::Driven(motor), _) => Some(rate - motor.speed),
+            (Role::Sprung(_), Pass::Settle) => None,
+            (Role::Sprung(spring), Pass::Move) => {
+                let soft = Softness::new(spring.hz, spring.damping_ratio, h);
+                Some(rate + self.curve + soft.bias_rate * self.off(spring.target) + self.compliance * impulse)
+            }
+        }
+    }
+
+    /// The impulses that it may have, N·s or N·m·s.
+    pub(super) fn range(&self, h: f64) -> (f64, f64) {
+        let either_way = |force: f64| (-force * h, force * h);
+        match self.spec.role {
+            Role::Held(_) => (f64::NEG_INFINITY, f64::INFINITY),
+            Role::AtLeast(_) => (0.0, f64::INFINITY),
+            Role::AtMost(_) => (f64::NEG_INFINITY, 0.0),
+            Role::Driven(motor) => either_way(motor.max_force),
+            Role::Sprung(spring) => either_way(spring.max_force),
+        }
+    }
+
+    /// Whether the row can do something about an error.
+    pub(super) fn engages(&self, error: f64, h: f64) -> bool {
+        let (impulse, (least, most)) = (self.impulse + self.settle, self.range(h));
+        (impulse > least || error < 0.0) && (impulse < most || error > 0.0)
+    }
+
+    /// The error at a limit, counted inwards: `room` is the distance to it, closing at −`rate`.
+    fn towards_limit(&self, rate: f64, room: f64, sense: f64, pass: Pass, h: f64, held: &Softness) -> f64 {
+        match pass {
+            Pass::Settle => rate + (room / h).max(0.0),
+            Pass::Move if room > 0.0 => rate + sense * self.curve + room / h,
+            Pass::Move => {
+                let back = (held.bias_rate * room).max(-PUSH_BACK);
+                rate + sense * (self.curve + self.compliance * self.impulse) + back
+            }
+        }
+    }
+
+    /// How far the coordinate is from a target; angles the short way round.
+    fn off(&self, target: f64) -> f64 {
+        let off = self.value - target;
+        if matches!(self.spec.coordinate, Coordinate::Angle(..)) { off - TAU * (off / TAU).round() } else { off }
+    }
+
+    /// What the row gives way beside its response: a share of `response`, which of springs is that of the joint with its held rows holding.
+    pub(super) fn compliance(&self, response: f64, held: &Softness, h: f64) -> f64 {
+        match self.spec.role {
+            Role::Held(_) | Role::AtLeast(_) | Role::AtMost(_) => held.compliance() * response,
+            Role::Driven(_) => MOTOR_COMPLIANCE * response,
+            Role::Sprung(spring) => Softness::new(spring.hz, spring.damping_ratio, h).compliance() * response,
+        }
+    }
+}
