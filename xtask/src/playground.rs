@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::Outcome;
 use crate::play::{engine, npm, packages, page, web};
-use crate::process::{build_hyperbody, read, root, run as run_command, succeeds};
+use crate::process::{build_hyperbody, is_ci, read, root, run as run_command, succeeds};
 
 /// Steps after which hashes are compared.
 const STEPS: &str = "300";
@@ -69,10 +69,6 @@ pub(crate) fn check_hashes(names: &[&str]) -> Outcome {
 
 fn has_browser() -> bool {
     BROWSERS.iter().any(|name| succeeds(Command::new(name).arg("--version")))
-}
-
-fn is_ci() -> bool {
-    std::env::var_os("CI").is_some_and(|value| value == "true")
 }
 
 /// Under CI nothing is skipped.
