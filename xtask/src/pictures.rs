@@ -69,13 +69,16 @@ const SHOWN: [(&str, &str, (u32, u32), &str); 6] = [
 ];
 
 /// What is better shown otherwise than after three seconds and cut at w = 0.
-const MOMENTS: [(&str, &str); 15] = [
+const MOMENTS: [(&str, &str); 27] = [
     ("bounce2d", "--at 0.8"),
     ("cradle2d", "--at 0.35"),
     ("ramp3d", "--at 1.9"),
     ("wing_nut3d", "--at 2.6 --camera 34,17,3.2"),
     ("dominoes3d", "--at 3.5"),
     ("chain3d", "--at 0.9"),
+    ("seesaw3d", "--at 0.75"),
+    ("gyroscope3d", "--at 1"),
+    ("car3d", "--at 2.2"),
     ("stack4d", "--at 1"),
     ("dice4d", "--at 1 --slice w=-0.5"),
     ("balls4d", "--at 1.4"),
@@ -85,6 +88,9 @@ const MOMENTS: [(&str, &str); 15] = [
     // Ten of the twenty pins stand in the face of the tetrahedron that this slice runs along.
     ("bowling4d", "--at 0.92 --turn xw=-18.435 --camera -40,24,6 --look-at 1.4,0.6,0.4"),
     ("pendulum4d", "--at 1 --camera 34,17,5.6 --look-at -0.6,2.95,0"),
+    ("door4d", "--at 1.1"),
+    ("wrecking_ball4d", "--at 1.75"),
+    ("safety_net4d", "--at 0.9"),
     // Half of the cubes of each cloud are there on the positive sides of w and v.
     ("clouds5d", "--at 1.4 --slice w=0.7,v=0.7"),
     ("balls6d", "--at 1.5"),

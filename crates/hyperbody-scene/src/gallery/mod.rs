@@ -6,6 +6,7 @@ mod compounds;
 mod friction;
 mod games;
 mod joints;
+mod machines;
 mod piles;
 mod random;
 mod spins;
@@ -35,7 +36,7 @@ impl BuiltIn {
 }
 
 /// All built-in scenes, by dimension.
-pub const BUILT_IN: [BuiltIn; 26] = [
+pub const BUILT_IN: [BuiltIn; 33] = [
     BuiltIn { name: "pyramid2d", build: stacks::pyramid_2d },
     BuiltIn { name: "bounce2d", build: bounces::restitution_2d },
     BuiltIn { name: "cradle2d", build: joints::cradle_2d },
@@ -44,6 +45,9 @@ pub const BUILT_IN: [BuiltIn; 26] = [
     BuiltIn { name: "wing_nut3d", build: spins::wing_nut_3d },
     BuiltIn { name: "dominoes3d", build: games::dominoes_3d },
     BuiltIn { name: "chain3d", build: joints::chain_3d },
+    BuiltIn { name: "seesaw3d", build: machines::seesaw_3d },
+    BuiltIn { name: "gyroscope3d", build: machines::gyroscope_3d },
+    BuiltIn { name: "car3d", build: machines::car_3d },
     BuiltIn { name: "stack4d", build: stacks::stack_4d },
     BuiltIn { name: "pyramid4d", build: stacks::pyramid_4d },
     BuiltIn { name: "pit4d", build: piles::tesseracts_4d },
@@ -57,6 +61,10 @@ pub const BUILT_IN: [BuiltIn; 26] = [
     BuiltIn { name: "tumble4d", build: spins::tumble_4d },
     BuiltIn { name: "bowling4d", build: games::bowling_4d },
     BuiltIn { name: "pendulum4d", build: joints::pendulum_4d },
+    BuiltIn { name: "door4d", build: machines::door_4d },
+    BuiltIn { name: "wrecking_ball4d", build: machines::wrecking_ball_4d },
+    BuiltIn { name: "conveyor4d", build: machines::conveyor_4d },
+    BuiltIn { name: "safety_net4d", build: machines::safety_net_4d },
     BuiltIn { name: "embedded4d", build: stacks::embedded_4d },
     BuiltIn { name: "stack5d", build: stacks::stack_5d },
     BuiltIn { name: "clouds5d", build: bounces::clouds_5d },

@@ -179,3 +179,93 @@ fn clouds_without_gravity_keep_their_momentum() {
     let scattered = end.iter().filter(|body| body.velocity[1].abs() > 0.3).count();
     assert!(scattered > 8, "only {scattered} cubes were thrown off their way");
 }
+
+/// Largest and least of what a body shows of itself during a scene.
+fn range(run: &mut Run, name: &str, seconds: f64, of: impl Fn(&BodyState) -> f64) -> (f64, f64) {
+    let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+    while run.world.time() < seconds {
+        run.world.step();
+        let states = run.world.body_states();
+        let value = of(named(&states, name));
+        (least, greatest) = (least.min(value), greatest.max(value));
+    }
+    (least, greatest)
+}
+
+#[test]
+fn the_seesaw_throws() {
+    let mut run = Run::new("seesaw3d");
+    let (_, highest) = range(&mut run, "light", 3.0, |body| body.position[1]);
+    assert!(highest > 2.0, "the light cube rose to {highest} m only");
+}
+
+#[test]
+fn the_gyroscope_goes_round_and_does_not_fall() {
+    let mut run = Run::new("gyroscope3d");
+    let mut angle = 0.0;
+    let mut last: f64 = 0.0;
+    while run.world.time() < 6.0 {
+        run.world.step();
+        let states = run.world.body_states();
+        let disc = named(&states, "disc");
+        assert!((disc.position[1] - 2.0).abs() < 0.12, "the disc is at {} m", disc.position[1]);
+        let now = disc.position[2].atan2(disc.position[0]);
+        let turn = now - last;
+        angle += turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
+        last = now;
+    }
+    // Steady precession of a fast top: Ω = m g r / L with L = ½ m R² ω, to first order in Ω/ω.
+    let expected = 9.81 * 0.6 / (0.5 * 0.25 * 60.0) * 6.0;
+    assert!((angle.abs() / expected - 1.0).abs() < 0.05, "it went round by {angle} rad, not {expected}");
+}
+
+#[test]
+fn the_car_drives_over_its_bumps() {
+    let end = Run::new("car3d").until(9.0);
+    let chassis = named(&end, "chassis");
+    assert!(chassis.position[0] > 11.5, "the car came to x = {} m", chassis.position[0]);
+    assert!(
+        (chassis.position[1] - 0.65).abs() < 0.15 && chassis.position[2].abs() < 1.0,
+        "it ended at {:?}",
+        chassis.position
+    );
+}
+
+#[test]
+fn the_door_opens_to_its_limit_and_turns_in_its_plane_alone() {
+    let mut run = Run::new("door4d");
+    let (least, _) = range(&mut run, "door", 2.5, |body| body.rotation[0][0]);
+    let limit = 100.0_f64.to_radians().cos();
+    assert!(least < 0.3 && least > limit - 0.02, "the cosine of its angle came down to {least}");
+    let states = run.world.body_states();
+    let door = named(&states, "door");
+    assert!((door.rotation[1][1] - 1.0).abs() < 1e-3 && (door.rotation[3][3] - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn the_wrecking_ball_goes_through_the_wall() {
+    let mut run = Run::new("wrecking_ball4d");
+    let end = run.until(4.0);
+    let moved = run
+        .start
+        .iter()
+        .zip(&end)
+        .filter(|(before, after)| before.name.starts_with("brick") && sideways(before, after) > 1.0);
+    assert!(moved.count() >= 8, "the wall stands");
+}
+
+#[test]
+fn the_conveyors_carry_along_x_and_then_along_w() {
+    let end = Run::new("conveyor4d").until(9.0);
+    for index in 0..6 {
+        let parcel = named(&end, &format!("parcel {index}"));
+        assert!(parcel.position[3] > 1.0 && parcel.position[0] > 3.5, "{} ended at {:?}", parcel.name, parcel.position);
+    }
+}
+
+#[test]
+fn the_net_catches() {
+    let end = Run::new("net4d").until(5.0);
+    let caught = named(&end, "catch");
+    assert!(caught.position[1] > 1.0, "the 24-cell fell to {:?}", caught.position);
+}
