@@ -247,7 +247,7 @@ fn group(name: &str) -> &'static str {
         "bounce" | "clouds" => "bounces",
         "wing_nut" | "tumble" | "gyroscope" => "spins",
         "dominoes" | "bowling" | "wrecking_ball" => "games",
-        "cradle" | "chain" | "pendulum" | "seesaw" | "car" | "door" | "safety_net" => "joints",
+        "cradle" | "chain" | "pendulum" | "seesaw" | "car" | "door" => "joints",
         _ => "more",
     }
 }

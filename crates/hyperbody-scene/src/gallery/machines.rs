@@ -1,6 +1,6 @@
-//! What joints make possible: doors, seesaws, cars, wrecking balls, tops, conveyors, nets.
+//! What joints make possible: doors, seesaws, cars, wrecking balls, tops, conveyors.
 
-use super::stage::{floor, material, point, scene};
+use super::stage::{floor, material, scene};
 use crate::model::{Body, Joint, JointKind, Scene, ShapeSpec};
 
 fn hinge(a: Option<&str>, b: &str, plane: &str) -> Joint {
@@ -115,40 +115,5 @@ pub(super) fn conveyor_4d() -> Scene {
         let x = -3.5 + 1.1 * f64::from(index);
         scene.bodies.push(Body::new(ShapeSpec::cube(4, 0.3)).named(format!("parcel {index}")).at([x, 2.35, 0.0, 0.0]));
     }
-    scene
-}
-
-pub(super) fn safety_net_4d() -> Scene {
-    let mut scene = scene(
-        4,
-        "A net of 4 × 4 × 4 knots, which is what a net is in four dimensions, hung by its eight corners, catches a falling 24-cell.",
-    );
-    let side = 4;
-    let knot = |i: usize, j: usize, k: usize| format!("knot {i}{j}{k}");
-    let place = |index: usize| (index as f64 - 0.5 * (side - 1) as f64) * 0.7;
-    for i in 0..side {
-        for j in 0..side {
-            for k in 0..side {
-                let corner = [i, j, k].iter().all(|&at| at == 0 || at == side - 1);
-                let ball =
-                    Body::new(ShapeSpec::ball(0.12)).named(knot(i, j, k)).at([place(i), 3.0, place(j), place(k)]);
-                scene.bodies.push(if corner { ball.fixed() } else { ball.weighing(0.2) });
-                let neighbours = [
-                    (i > 0).then(|| (knot(i.wrapping_sub(1), j, k), 0)),
-                    (j > 0).then(|| (knot(i, j.wrapping_sub(1), k), 2)),
-                    (k > 0).then(|| (knot(i, j, k.wrapping_sub(1)), 3)),
-                ];
-                for (neighbour, axis) in neighbours.into_iter().flatten() {
-                    let mut half = point(4, &[]);
-                    half[axis] = 0.35;
-                    let back = half.iter().map(|value| -value).collect::<Vec<f64>>();
-                    scene.joints.push(Joint::new(JointKind::Ball, neighbour, knot(i, j, k)).anchored(half, back));
-                }
-            }
-        }
-    }
-    scene
-        .bodies
-        .push(Body::new(ShapeSpec::regular("24-cell", 0.9)).named("catch").at([0.1, 5.0, 0.0, 0.1]).weighing(3.0));
     scene
 }

@@ -262,10 +262,3 @@ fn the_conveyors_carry_along_x_and_then_along_w() {
         assert!(parcel.position[3] > 1.0 && parcel.position[0] > 3.5, "{} ended at {:?}", parcel.name, parcel.position);
     }
 }
-
-#[test]
-fn the_net_catches() {
-    let end = Run::new("net4d").until(5.0);
-    let caught = named(&end, "catch");
-    assert!(caught.position[1] > 1.0, "the 24-cell fell to {:?}", caught.position);
-}

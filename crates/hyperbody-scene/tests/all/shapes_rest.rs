@@ -66,7 +66,7 @@ fn every_shape_rests(dimension: usize) {
         let mut body = Body::new(shape.clone()).named(name).at(place);
         // Rolling has no resistance of its own.
         (body.angular_damping, body.linear_damping) = (2.0, 1.0);
-        let planes = ["xy", "yz", "yw", "yv"][..dimension - 1].iter();
+        let planes = ["xy", "yz", "yw", "yv", "yu"][..dimension - 1].iter();
         let turn = |(k, plane): (usize, &&str)| Turn {
             plane: (*plane).to_owned(),
             angle: Angle::Degrees(10.0 + 7.0 * k as f64),
