@@ -34,7 +34,7 @@ pub struct Tuning {
     pub joint_damping_ratio: f64,
     /// Most multiplications a substep, about, that a set of joints which hang together may cost to be solved together, and so
     /// exactly; ≥ 0, may be infinite. Default 10 million, some milliseconds a step: a net of 20 × 20 balls in 3D is below. Beyond it joints are solved one
-    /// by one, which is fast and stretches under load. Chains, trees and small loops are always solved together.
+    /// by one, which is fast and stretches under load. Chains, small trees and small loops are always solved together.
     pub joint_budget: f64,
     /// Speed (of any point of the body) below which a body may fall asleep, m/s. Default 0.05.
     pub sleep_speed: f64,

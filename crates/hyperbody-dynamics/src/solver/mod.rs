@@ -240,7 +240,7 @@ impl<const N: usize> Solver<N> {
             let mut times = pass_times(substep, h, tuning);
             self.damp(h * f64::from(substep + 1));
             self.joints.kick(h);
-            self.warm_start_joints(Pass::Move);
+            self.warm_start_joints(Pass::Move, h);
             if substep == 0 {
                 let contacts = &mut self.contacts;
                 let pass = |state: &mut [Real]| arch.dispatch(|| Passes::<N>::warm_start(contacts, state));
@@ -255,7 +255,7 @@ impl<const N: usize> Solver<N> {
             let rows = (&mut self.contacts, self.active.as_slice());
             self.turning.refresh(&self.bodies, &self.state, &times, rows, input.pairs);
             self.refresh_joints(&Moment::new(substep + 1, substep + 1, h));
-            self.warm_start_joints(Pass::Settle);
+            self.warm_start_joints(Pass::Settle, h);
             self.solve_joints(Pass::Settle, substep, h);
             self.solve_contacts(&times);
             if substep + 1 == input.substeps {
@@ -275,9 +275,9 @@ impl<const N: usize> Solver<N> {
         self.joints.refresh(&moving, moment);
     }
 
-    fn warm_start_joints(&mut self, pass: Pass) {
+    fn warm_start_joints(&mut self, pass: Pass, h: f64) {
         let mut moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
-        self.joints.warm_start(&mut moving, pass);
+        self.joints.warm_start(&mut moving, pass, h);
     }
 
     fn solve_joints(&mut self, pass: Pass, substep: u32, h: f64) {

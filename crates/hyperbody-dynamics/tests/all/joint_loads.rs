@@ -110,3 +110,60 @@ fn a_motor_turns_a_long_arm() {
     arm::<3>();
     arm::<5>();
 }
+
+/// A motor of 10 N·m on an arm of m r² = 4 kg m² speeds it up at 10/I from the first step on; no row fights another.
+fn weak_arm<const N: usize>() {
+    let mut world = world(Vector::<N>::ZERO);
+    let body = BodyDef::new(cuboid(Vector::splat(0.1))).mass(1.0).position(Vector::unit(0) * 2.0);
+    let body = world.add_body(body).unwrap();
+    let at_pivot = Pose::from_translation(-Vector::unit(0) * 2.0);
+    let hinge = JointDef::hinge(None, body, Pose::IDENTITY, at_pivot, (0, 1)).motor(0, 1, 3.0, 10.0);
+    world.add_joint(hinge).unwrap();
+    let moment = 4.0 + 0.02 / 3.0;
+    for step in 1..=120 {
+        world.step();
+        let spin = world.body(body).unwrap().angular_velocity().get(0, 1);
+        let expected = (10.0 / moment * f64::from(step) / 60.0).min(3.0);
+        assert!((spin - expected).abs() < 0.01, "{N}D: {spin} rad/s after step {step}, not {expected}");
+        assert!(gap(&world) < 1e-3);
+    }
+}
+
+#[test]
+fn a_weak_motor_turns_a_long_arm() {
+    weak_arm::<2>();
+    weak_arm::<3>();
+    weak_arm::<4>();
+    weak_arm::<6>();
+}
+
+/// An arm that lies on its limit is let go upwards when gravity turns over, as fast as it falls; and a motor stops at a limit, though it has ten times the strength that holds the arm level.
+#[test]
+fn limits_let_go_and_hold_against_motors() {
+    let mut world = world(-Vector::<4>::unit(1) * 9.81);
+    let body = BodyDef::new(cuboid(Vector::splat(0.1))).mass(1.0).position(Vector::unit(0) * 2.0);
+    let body = world.add_body(body).unwrap();
+    let at_pivot = Pose::from_translation(-Vector::unit(0) * 2.0);
+    let hinge = JointDef::hinge(None, body, Pose::IDENTITY, at_pivot, (0, 1)).angle_limits(0, 1, 0.0, 0.5);
+    let joint = world.add_joint(hinge.clone()).unwrap();
+    for _ in 0..60 {
+        world.step();
+        assert!(gap(&world) < 1e-3 && world.body(body).unwrap().position()[1].abs() < 2e-3);
+    }
+    world.set_gravity(Vector::unit(1) * 9.81).unwrap();
+    for step in 1..=6 {
+        world.step();
+        let spin = world.body(body).unwrap().angular_velocity().get(0, 1);
+        let expected = 9.81 * 2.0 / (4.0 + 0.02 / 3.0) * f64::from(step) / 60.0;
+        assert!((spin - expected).abs() < 0.02 * expected + 1e-3, "{spin} rad/s after step {step}, not {expected}");
+        assert!(gap(&world) < 1e-3);
+    }
+    world.set_gravity(Vector::ZERO).unwrap();
+    world.set_joint(joint, hinge.motor(0, 1, 2.0, 200.0)).unwrap();
+    for _ in 0..120 {
+        world.step();
+    }
+    let place = world.body(body).unwrap().position();
+    let angle = place[1].atan2(place[0]);
+    assert!((angle - 0.5).abs() < 5e-3 && gap(&world) < 1e-3, "the motor drove the arm to {angle} rad");
+}

@@ -11,7 +11,10 @@ pub(super) const PUSH_BACK: f64 = 4.0;
 
 /// What motors give way, in parts of their response: so little that a motor against a limit, or two motors against each other, end at
 /// their strength and not at infinity.
-const MOTOR_COMPLIANCE: f64 = 1e-6;
+const MOTOR_COMPLIANCE: f64 = 1e-4;
+
+/// The same of limits: less than motors, so that no motor drives through one, however strong.
+const LIMIT_COMPLIANCE: f64 = 1e-6;
 
 impl<const N: usize> Row<N> {
     /// What the row wants its rate to change by, negated; nothing in passes that are not its own. `rate` counts all impulses so far.
@@ -22,7 +25,7 @@ impl<const N: usize> Row<N> {
             (Role::Held(_), Pass::Move) => Some(rate + self.curve + self.drawn),
             (Role::AtLeast(least), _) => Some(self.towards_limit(rate, self.value - least, 1.0, pass, h, held)),
             (Role::AtMost(greatest), _) => Some(-self.towards_limit(-rate, greatest - self.value, -1.0, pass, h, held)),
-            (Role::Driven(motor), _) => Some(rate - motor.speed),
+            (Role::Driven(motor), _) => Some(rate - motor.speed + self.compliance * impulse),
             (Role::Sprung(_), Pass::Settle) => None,
             (Role::Sprung(spring), Pass::Move) => {
                 let soft = Softness::new(spring.hz, spring.damping_ratio, h);
@@ -56,7 +59,7 @@ impl<const N: usize> Row<N> {
             Pass::Move if room > 0.0 => rate + sense * self.curve + room / h,
             Pass::Move => {
                 let back = (held.bias_rate * room).max(-PUSH_BACK);
-                rate + sense * (self.curve + self.compliance * self.impulse) + back
+                rate + sense * self.curve + back
             }
         }
     }
@@ -70,7 +73,8 @@ impl<const N: usize> Row<N> {
     /// What the row gives way beside its response: a share of `response`, which of springs is that of the joint with its held rows holding.
     pub(super) fn compliance(&self, response: f64, held: &Softness, h: f64) -> f64 {
         match self.spec.role {
-            Role::Held(_) | Role::AtLeast(_) | Role::AtMost(_) => held.compliance() * response,
+            Role::Held(_) => held.compliance() * response,
+            Role::AtLeast(_) | Role::AtMost(_) => LIMIT_COMPLIANCE * response,
             Role::Driven(_) => MOTOR_COMPLIANCE * response,
             Role::Sprung(spring) => Softness::new(spring.hz, spring.damping_ratio, h).compliance() * response,
         }

@@ -104,6 +104,9 @@ pub(super) struct Plan {
 /// How much dearer than a chain of as many joints a cluster may be in any case: trees and small loops.
 const CHEAP: u64 = 16;
 
+/// Multiplications that are always afforded: a hub with twenty spokes.
+const NOTHING: u64 = 200_000;
+
 /// How much dearer it may be at all, if the budget allows: a net of 20 × 20 is at 90. Limits and motors need new factors whenever they
 /// engage, so with some of them [`CHEAP`] is the end.
 const DEAR: u64 = 128;
@@ -125,7 +128,7 @@ impl Plan {
             let in_a_chain: u64 = component.iter().map(|link| cost(link.rows, link.rows)).sum();
             let bounded = component.iter().any(|link| link.bounded);
             let most = if bounded { 0 } else { budget.min(DEAR * in_a_chain) };
-            match Elimination::new(&component, most.max(CHEAP * in_a_chain)) {
+            match Elimination::new(&component, most.max(CHEAP * in_a_chain).max(NOTHING)) {
                 Some(elimination) => self.add(&component, &elimination, true),
                 None => component.iter().for_each(|link| self.add_alone(*link)),
             }
@@ -248,6 +251,9 @@ struct Elimination {
 impl Elimination {
     /// Nothing if it would cost more than the budget.
     fn new(links: &[Link], budget: u64) -> Option<Self> {
+        if dearest_body(links) > budget {
+            return None;
+        }
         let pairs = pairs(links);
         let mut around: Vec<Vec<u32>> = vec![Vec::new(); links.len()];
         for &(i, j) in &pairs {
@@ -279,6 +285,19 @@ impl Elimination {
         }
         Some(Self { order, around, pairs })
     }
+}
+
+/// Multiplications, about, that the joints of one body cost at least: sooner or later they are all neighbours.
+fn dearest_body(links: &[Link]) -> u64 {
+    let mut ends: Vec<(u32, u64)> = links
+        .iter()
+        .flat_map(|link| link.bodies.map(|body| (body, u64::from(link.rows))))
+        .filter(|&(body, _)| body != 0)
+        .collect();
+    ends.sort_unstable();
+    let of_body = ends.chunk_by(|one, other| one.0 == other.0);
+    let rows = of_body.map(|ends| ends.iter().map(|&(_, rows)| rows).sum::<u64>()).max().unwrap_or(0);
+    rows * rows * rows / 3
 }
 
 /// Pairs of links that share a body that moves.

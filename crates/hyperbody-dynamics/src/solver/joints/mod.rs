@@ -89,6 +89,8 @@ struct Row<const N: usize> {
     drawn: f64,
     /// Whether it gets an impulse of the system that is factored.
     engaged: bool,
+    /// Whether it was taken out because it came to the end of its range.
+    stopped: bool,
     /// Impulses of this substep before and after the move, N·s or N·m·s.
     impulse: f64,
     settle: f64,
@@ -269,6 +271,7 @@ impl<const N: usize> Row<N> {
             compliance: 0.0,
             drawn: 0.0,
             engaged: true,
+            stopped: false,
             impulse,
             settle,
         }

@@ -74,15 +74,17 @@ impl<const N: usize> Joints<N> {
         }
     }
 
-    /// Applies the impulses that the last substep's pass of the same sort ended with.
-    pub(crate) fn warm_start(&mut self, moving: &mut Moving<'_, N>, pass: Pass) {
+    /// Applies the impulses that the last substep's pass of the same sort ended with. `h` is the length of a substep, s.
+    pub(crate) fn warm_start(&mut self, moving: &mut Moving<'_, N>, pass: Pass, h: f64) {
         for joint in &self.joints {
             let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
             for row in &mut self.rows[joint.first..joint.end] {
                 let impulse = match pass {
                     Pass::Move => {
                         if !joint.splits(row) {
-                            row.impulse += row.settle;
+                            // The range is another one when a motor was changed between steps.
+                            let (least, most) = row.range(h);
+                            row.impulse = (row.impulse + row.settle).clamp(least, most);
                             row.settle = 0.0;
                         }
                         row.impulse
@@ -138,34 +140,37 @@ impl<const N: usize> Joints<N> {
     }
 
     /// Solves the joints of a cluster together, with limits and motors within their ranges: rows that would leave theirs are set to
-    /// its end and taken out of the system, rows that should come in are taken in, until nothing changes. Returns the largest error of
-    /// a rate that it found, m/s or rad/s.
+    /// its end and taken out of the system, until the rest stays within; then rows that should come in, or come back, are taken in, and so on
+    /// until nothing changes. Returns the largest error of a rate that it found, m/s or rad/s.
     fn solve_cluster(&mut self, index: usize, moving: &mut Moving<'_, N>, pass: Pass, h: f64) -> f64 {
         let cluster = self.plan.clusters[index].clone();
         self.unknowns.clear();
         self.unknowns.resize(cluster.unknowns as usize, 0.0);
-        let (mut solved, mut largest) = (false, 0.0);
-        for round in 0..ROUNDS {
-            let (changed, error) = self.wish(&cluster, moving, pass, h);
-            if round == 0 {
-                largest = error;
+        let (mut solved, mut largest) = (false, None);
+        for _ in 0..ROUNDS {
+            // Each time but the last takes out one row at least.
+            for _ in 0..=cluster.unknowns {
+                let (changed, error) = self.wish(&cluster, moving, pass, h);
+                largest = largest.or(Some(error));
+                if solved && !changed {
+                    return largest.unwrap_or(0.0);
+                }
+                solved = false;
+                if changed {
+                    self.factorize(index, moving);
+                }
+                factor::solve(&self.plan, &cluster, &self.factors, &mut self.unknowns, &mut self.scratch);
+                if !self.stop_at_ends(&cluster, moving, pass, h) {
+                    break;
+                }
             }
-            if solved && !changed {
-                break;
-            }
-            if changed {
-                self.factorize(index, moving);
-            }
-            factor::solve(&self.plan, &cluster, &self.factors, &mut self.unknowns, &mut self.scratch);
-            solved = round + 1 == ROUNDS || !self.stop_at_ends(&cluster, moving, pass, h);
-            if solved {
-                self.apply(&cluster, moving, pass, h);
-            }
+            self.apply(&cluster, moving, pass, h);
+            solved = true;
             if !cluster.bounded {
                 break;
             }
         }
-        largest
+        largest.unwrap_or(0.0)
     }
 
     /// Writes what the rows of a cluster want; whether rows came in or went out.
@@ -181,7 +186,7 @@ impl<const N: usize> Joints<N> {
             }
             for (unknown, row) in unknowns.iter_mut().zip(rows) {
                 let error = row.error(row.rate(a, b, moving), pass, h, joint);
-                let engaged = error.is_some_and(|error| row.engages(error, h));
+                let engaged = error.is_some_and(|error| !row.stopped && row.engages(error, h));
                 changed |= engaged != row.engaged;
                 row.engaged = engaged;
                 *unknown = if engaged { -error.unwrap_or(0.0) } else { 0.0 };
@@ -208,6 +213,7 @@ impl<const N: usize> Joints<N> {
                 let wanted = (impulse + unknown).clamp(least, most);
                 if wanted != impulse + unknown {
                     row.add(a, b, moving, pass, wanted - impulse);
+                    row.stopped = true;
                     stopped = true;
                 }
             }
@@ -229,6 +235,7 @@ impl<const N: usize> Joints<N> {
                 let (least, most) = row.range(h);
                 let impulse = row.impulse + row.settle;
                 row.add(a, b, moving, pass, (impulse + unknown).clamp(least, most) - impulse);
+                row.stopped = false;
             }
         }
     }
@@ -306,25 +313,33 @@ impl<const N: usize> JointRows<N> {
     /// solved by themselves, by a share of K λ, so that they swing at one frequency in every direction.
     fn draw_in(&self, rows: &mut [Row<N>], own: &[f64]) {
         let held = self.held - self.first;
-        let mut fastest_sq = 0.0;
-        for row in &mut rows[..held] {
-            let Role::Held(place) = row.spec.role else { continue };
-            row.drawn = self.soft.bias_rate * (row.value - place);
-            fastest_sq += row.drawn * row.drawn;
-        }
-        if fastest_sq > PUSH_BACK * PUSH_BACK && !self.is_soft {
-            let slower = PUSH_BACK / fastest_sq.sqrt();
-            rows[..held].iter_mut().for_each(|row| row.drawn *= slower);
-        }
-        if self.exact {
-            rows[..held].iter_mut().for_each(|row| row.drawn += row.compliance * row.impulse);
-            return;
-        }
         let compliance = self.soft.compliance();
+        let (mut given_sq, mut back_sq) = (0.0, 0.0);
         for i in 0..held {
-            let of_all = (0..held).map(|j| own[block::len(i.max(j)) + i.min(j)] * rows[j].impulse);
-            let given: f64 = of_all.sum();
-            rows[i].drawn += compliance * given;
+            let given = if self.exact {
+                rows[i].compliance * rows[i].impulse
+            } else {
+                let of_all = (0..held).map(|j| own[block::len(i.max(j)) + i.min(j)] * rows[j].impulse);
+                compliance * of_all.sum::<f64>()
+            };
+            rows[i].drawn = given;
+            given_sq += given * given;
+            let back = self.back(&rows[i]);
+            back_sq += back * back;
+        }
+        // What it gives way comes on top, or a great load would open the joint without end.
+        let (fastest, wanted) = (PUSH_BACK + given_sq.sqrt(), back_sq.sqrt());
+        let share = if wanted > fastest && !self.is_soft { fastest / wanted } else { 1.0 };
+        for row in &mut rows[..held] {
+            row.drawn += share * self.back(row);
+        }
+    }
+
+    /// The speed with which the spring of a held row draws back, m/s or rad/s.
+    fn back(&self, row: &Row<N>) -> f64 {
+        match row.spec.role {
+            Role::Held(place) => self.soft.bias_rate * (row.value - place),
+            _ => 0.0,
         }
     }
 
