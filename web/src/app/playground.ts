@@ -33,7 +33,6 @@ const LONGEST_FRAME = 0.1;
 export interface Readout {
   time: number;
   step: number;
-  paused: boolean;
   slowdown: number;
   workerMs: Frame["workerMs"];
   selected: Selected | null;
@@ -50,6 +49,8 @@ export class Playground {
   readonly sceneName = signal<string | null>(null);
   readonly builtins = signal<BuiltIn[]>([]);
   readonly readout = signal<Readout | null>(null);
+  /** Whether time stands. Said here and obeyed by the worker: a frame that is still under way knows nothing of the last key. */
+  readonly paused = signal(false);
   readonly selected = signal<number | null>(null);
   readonly followed = signal<number | null>(null);
   readonly speed = signal(1);
@@ -128,10 +129,27 @@ export class Playground {
     if (answer?.undone) this.say(answer.undone);
   }
 
+  /** Stops time, or goes on from the moment that is shown. */
   setPaused(on: boolean): void {
-    const back = this.readout.value?.history.secondsBack ?? 0;
-    if (!on && back > 0) this.client.send("resumeHere", {});
+    this.paused.value = on;
+    if (!on) this.client.send("resumeHere", {});
     this.client.send("pause", { on });
+  }
+
+  togglePaused(): void {
+    this.setPaused(!this.paused.value);
+  }
+
+  /** One step, after which time stands. */
+  stepOnce(): void {
+    this.paused.value = true;
+    this.client.send("step", {});
+  }
+
+  /** Shows an earlier moment, at which time stands. */
+  scrub(secondsBack: number): void {
+    this.paused.value = true;
+    this.client.send("scrub", { secondsBack });
   }
 
   setSpeed(factor: number): void {
@@ -334,9 +352,9 @@ export class Playground {
     if (frame.selected) this.plots.add(frame.time, frame.selected);
     if (time - this.lastReadout < READOUT_MS) return;
     this.lastReadout = time;
-    const { paused, slowdown, workerMs, selected, history, energy, quarantined, step } = frame;
+    const { slowdown, workerMs, selected, history, energy, quarantined, step } = frame;
     this.readout.value = {
-      time: frame.time, step, paused, slowdown, workerMs, selected, history, energy, quarantined,
+      time: frame.time, step, slowdown, workerMs, selected, history, energy, quarantined,
       asleep: frame.asleep.length, slice: this.slice.frame,
     };
   }

@@ -68,8 +68,8 @@ export class KeyboardInput {
     if (event.shiftKey && (event.code === "KeyE" || event.code === "KeyQ")) return () => this.goToNeighbour(event.code === "KeyE" ? 1 : -1);
     if (event.code === "Space" && event.target instanceof HTMLButtonElement) return undefined; // Space presses the button.
     const actions: Record<string, () => void> = {
-      Space: () => playground.setPaused(!(playground.readout.value?.paused ?? false)),
-      Period: () => playground.client.send("step", {}),
+      Space: () => playground.togglePaused(),
+      Period: () => playground.stepOnce(),
       Comma: () => playground.setSpeed(playground.speed.value < 1 ? 1 : SLOW_FACTOR),
       Backspace: () => playground.reset(),
       Home: () => slice.home(),
@@ -168,7 +168,7 @@ export class KeyboardInput {
     if (now - this.scrubbing.at > SCRUB_MEMORY_MS) this.scrubbing.back = history.secondsBack;
     this.scrubbing.at = now;
     this.scrubbing.back = Math.min(history.seconds, Math.max(0, this.scrubbing.back - sense * SCRUB_SPEED * seconds));
-    this.playground.client.send("scrub", { secondsBack: this.scrubbing.back });
+    this.playground.scrub(this.scrubbing.back);
   }
 
   /** Alt and keys move the selected body with a hand of the keyboard's own, which grabs it when first needed. */

@@ -10,14 +10,14 @@ const SLOW_SHARE = 0.85;
 export function Transport() {
   const playground = usePlayground();
   const readout = playground.readout.value;
-  const paused = readout?.paused ?? false;
+  const paused = playground.paused.value;
   const slow = playground.speed.value < 1;
   return (
     <section class="transport glass" aria-label={t().play}>
       <IconButton icon="undo" label={t().undo} disabled={!readout?.history.undo} onPress={() => void playground.undo()} />
       <IconButton icon="reset" label={t().reset} onPress={() => playground.reset()} />
-      <IconButton icon={paused ? "play" : "pause"} kind="primary" label={paused ? t().play : t().pause} onPress={() => playground.setPaused(!paused)} />
-      <IconButton icon="step" label={t().stepOnce} onPress={() => playground.client.send("step", {})} />
+      <IconButton icon={paused ? "play" : "pause"} kind="primary" label={paused ? t().play : t().pause} onPress={() => playground.togglePaused()} />
+      <IconButton icon="step" label={t().stepOnce} onPress={() => playground.stepOnce()} />
       <IconButton icon="slow" label={t().slow} pressed={slow} onPress={() => playground.setSpeed(slow ? 1 : SLOW_FACTOR)} />
       <Scrub />
     </section>
@@ -33,7 +33,7 @@ function Scrub() {
     <label class="scrub" title={t().scrub}>
       <input
         type="range" min={-Math.max(0.1, seconds)} max={0} step={0.02} value={-back} disabled={seconds < 0.1} aria-label={t().scrub} data-testid="scrub"
-        onInput={(event) => playground.client.send("scrub", { secondsBack: -Number(event.currentTarget.value) })}
+        onInput={(event) => playground.scrub(-Number(event.currentTarget.value))}
       />
       <output>{back > 0.01 ? t().secondsBack(back.toFixed(1)) : t().now}</output>
     </label>
@@ -45,7 +45,7 @@ export function Warnings() {
   const playground = usePlayground();
   const readout = playground.readout.value;
   if (!readout) return null;
-  const slow = !readout.paused && readout.slowdown < SLOW_SHARE;
+  const slow = !playground.paused.value && readout.slowdown < SLOW_SHARE;
   const stopped = readout.quarantined.map((body) => playground.body(body)?.name ?? String(body));
   return (
     <div class="warnings" role="status">

@@ -14,7 +14,7 @@
 //! | `joints` | joint rows |
 //! | `turning` | gaps of bodies that turn far within the step |
 //! | `gyro` | free rotation of anisotropic bodies within the step |
-//! | `softness`, `lanes` | soft coefficients; vectors of contacts |
+//! | `softness`, `lanes`, `width` | soft coefficients; vectors of contacts; the processor's width |
 
 pub(crate) mod bodies;
 mod colours;
@@ -25,6 +25,7 @@ mod lanes;
 mod pressed;
 mod softness;
 mod turning;
+mod width;
 
 use hyperbody_math::Vector;
 
@@ -45,6 +46,7 @@ pub(crate) use lanes::Real;
 use pressed::Pressed;
 use softness::Softness;
 use turning::Turning;
+use width::Width;
 
 /// Buffers of the solver, kept from step to step so that a settled step allocates nothing.
 pub(crate) struct Solver<const N: usize> {
@@ -61,7 +63,7 @@ pub(crate) struct Solver<const N: usize> {
     tension: Tension,
     turning: Turning<N>,
     pressed: Pressed,
-    arch: pulp::Arch,
+    width: Width,
 }
 
 /// A body whose velocity dies away.
@@ -99,7 +101,7 @@ impl<const N: usize> Solver<N> {
             tension: Tension::default(),
             turning: Turning::default(),
             pressed: Pressed::default(),
-            arch: pulp::Arch::new(),
+            width: Width::of_this_machine(),
         }
     }
 
@@ -232,7 +234,7 @@ impl<const N: usize> Solver<N> {
 
     fn run_substeps(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
-        let arch = self.arch;
+        let width = self.width;
         self.turning.clear(self.bodies.len());
         self.pressed.clear::<N>(self.bodies.len());
         self.refresh_joints(&Moment::new(0, 0, h));
@@ -243,7 +245,7 @@ impl<const N: usize> Solver<N> {
             self.warm_start_joints(Pass::Move, h);
             if substep == 0 {
                 let contacts = &mut self.contacts;
-                let pass = |state: &mut [Real]| arch.dispatch(|| Passes::<N>::warm_start(contacts, state));
+                let pass = |state: &mut [Real]| width.run(|| Passes::<N>::warm_start(contacts, state));
                 self.pressed.watch::<N>(&mut self.state, pass);
             } else {
                 self.pressed.warm_start::<N>(&mut self.state);
@@ -259,14 +261,14 @@ impl<const N: usize> Solver<N> {
             self.solve_joints(Pass::Settle, substep, h);
             self.solve_contacts(&times);
             if substep + 1 == input.substeps {
-                arch.dispatch(|| Passes::<N>::bounce(&mut self.contacts, &mut self.state, &times));
+                width.run(|| Passes::<N>::bounce(&mut self.contacts, &mut self.state, &times));
             }
         }
     }
 
     fn solve_contacts(&mut self, times: &PassTimes) {
-        let (arch, contacts) = (self.arch, &mut self.contacts);
-        let pass = |state: &mut [Real]| arch.dispatch(|| Passes::<N>::solve(contacts, state, times));
+        let (width, contacts) = (self.width, &mut self.contacts);
+        let pass = |state: &mut [Real]| width.run(|| Passes::<N>::solve(contacts, state, times));
         self.pressed.watch::<N>(&mut self.state, pass);
     }
 

@@ -40,9 +40,9 @@ export class WristPanel {
 
   private makeButtons(): Button[] {
     const { playground } = this;
-    const paused = () => playground.readout.value?.paused ?? false;
+    const paused = () => playground.paused.value;
     return [
-      { label: () => t().vrPanel.pause, pressed: paused, act: () => playground.setPaused(!paused()) },
+      { label: () => t().vrPanel.pause, pressed: paused, act: () => playground.togglePaused() },
       { label: () => t().vrPanel.reset, pressed: () => false, act: () => playground.reset() },
       { label: () => t().vrPanel.home, pressed: () => false, act: () => playground.slice.home() },
       { label: () => t().vrPanel.undo, pressed: () => false, act: () => void playground.undo() },
