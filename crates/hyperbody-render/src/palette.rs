@@ -72,11 +72,11 @@ impl Palette {
 
 /// The cells that are taken.
 fn count(pixels: &[[u8; 3]]) -> Vec<Cell> {
-    let mut sums = vec![[0_u32; 4]; 1 << (3 * BITS)];
+    let mut sums = vec![[0_u64; 4]; 1 << (3 * BITS)];
     for pixel in pixels {
         let sum = &mut sums[cell_of(*pixel)];
         for part in 0..3 {
-            sum[part] += u32::from(pixel[part]);
+            sum[part] += u64::from(pixel[part]);
         }
         sum[3] += 1;
     }
@@ -212,6 +212,14 @@ mod tests {
             assert_eq!(palette.colours[usize::from(palette.index(*pixel))], *pixel);
         }
         assert!(Palette::of(&[]).colours.len() <= 1, "no pixels need no colours");
+    }
+
+    /// The largest picture has so many pixels of one colour that their sum is beyond 32 bits.
+    #[test]
+    fn large_pictures_keep_their_colours() {
+        let pixels = vec![[255; 3]; (u32::MAX / 255) as usize + 10];
+        let palette = Palette::of(&pixels);
+        assert_eq!(palette.colours[usize::from(palette.index([255; 3]))], [255; 3]);
     }
 
     /// A smooth ramp of all greys, and ten pixels of a colour of its own.
