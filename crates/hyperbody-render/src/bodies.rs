@@ -1,10 +1,13 @@
 //! The bodies of a world as pictures need them. Where they are comes apart from what they are, so that one and the same picture is
 //! made of a world that steps and of a recording of it.
 
+use hyperbody::geometry::shape::Piece;
 use hyperbody::math::{Pose, Vector};
 use hyperbody::prelude::{BodyKind, Shape, World};
 
 use crate::error::RenderError;
+use crate::slice::Slice;
+use crate::stage::{SlicePlane, slice_plane};
 
 /// What is to be seen: bodies, where they are, and which way is down.
 #[derive(Clone, Debug)]
@@ -69,5 +72,23 @@ impl<const N: usize> Bodies<N> {
             body.pose = *pose;
         }
         Ok(())
+    }
+
+    /// The half-spaces, by their numbers in the order of [`World::bodies`], that hold the whole slice: whose boundary runs
+    /// along it, on the far side. A picture of the slice cannot show them, for there is nothing to be seen inside a solid,
+    /// and leaves them out.
+    #[must_use]
+    pub fn half_spaces_around(&self, slice: &Slice<N>) -> Vec<usize> {
+        let holds = |body: &Shown<N>| {
+            let body_from_slice = body.pose.relative(slice.pose());
+            body.shape.pieces().iter().any(|(body_from_piece, piece)| match piece {
+                Piece::HalfSpace { normal, offset } => {
+                    let plane = slice_plane(*normal, *offset, &(body_from_piece.inverse() * body_from_slice));
+                    matches!(plane, SlicePlane::Along { height } if height <= 0.0)
+                }
+                Piece::Convex(_) => false,
+            })
+        };
+        self.all.iter().enumerate().filter(|(_, body)| holds(body)).map(|(index, _)| index).collect()
     }
 }

@@ -18,7 +18,8 @@ pub struct Camera {
 
 impl Camera {
     /// A camera at a distance from its target: `azimuth` turns it around the vertical, from the front (0) to the right,
-    /// `elevation` lifts it.
+    /// `elevation` lifts it, from −π/2 (straight below) to π/2 (straight above). In the view from there, too, what lies
+    /// beyond the target as seen from the azimuth is up in the picture.
     #[must_use]
     pub fn around(target: Vector<3>, up: Vector<3>, distance: f64, azimuth: f64, elevation: f64) -> Self {
         // The front is where the third direction points to, or the first if that is up.
@@ -28,6 +29,8 @@ impl Camera {
         let (sin_elevation, cos_elevation) = scalar::sin_cos(elevation);
         let outward = front * cos_azimuth + right * sin_azimuth;
         let eye = target + (outward * cos_elevation + up * sin_elevation) * distance;
+        // Along the vertical the vertical says nothing; the limit of views from nearby does.
+        let up = if cos_elevation.abs() < STEEP { outward * -sin_elevation } else { up };
         Self { eye, target, up, field_of_view: 0.6 }
     }
 
@@ -43,6 +46,9 @@ impl Camera {
         self
     }
 }
+
+/// Least sine of the angle between a view and the upward direction at which the latter tells what is up.
+const STEEP: f64 = 1e-6;
 
 /// The unit vector of the part of `v` across `up`.
 fn flat(v: Vector<3>, up: Vector<3>) -> Option<Vector<3>> {
@@ -73,7 +79,7 @@ impl Lens {
         let forward = (camera.target - camera.eye).try_normalize().unwrap_or(-Vector::unit(2));
         // A view straight along `up` takes any other direction for it.
         let side = [camera.up, Vector::unit(0), Vector::unit(1)].map(|up| cross(forward, up));
-        let right = side.into_iter().find(|side| side.norm() > 1e-6).unwrap_or(Vector::unit(0)).normalize_or_zero();
+        let right = side.into_iter().find(|side| side.norm() > STEEP).unwrap_or(Vector::unit(0)).normalize_or_zero();
         let tangent = scalar::tan(0.5 * camera.field_of_view);
         Self {
             eye: camera.eye,

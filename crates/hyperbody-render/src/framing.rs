@@ -14,8 +14,33 @@ const FAR_AWAY: f64 = 5.0;
 /// Radius of the ball around a body that has to be in the picture, in radii of the body.
 const ROOM: f64 = 1.1;
 
-/// Least distance, in radii of the largest body: a single one does not fill the picture from edge to edge.
+/// Field of view if none is said, rad.
+const USUAL_FIELD_OF_VIEW: f64 = 0.6;
+
+/// Least distance at that, in radii of the largest body: a single one does not fill the picture from edge to edge.
 const LEAST_DISTANCE: f64 = 4.6;
+
+/// From where a camera looks whose distance is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// Angle around the vertical, from the front (0) to the right, rad.
+    pub azimuth: f64,
+    /// Angle above the horizon, from −π/2 to π/2, rad.
+    pub elevation: f64,
+    /// Angle of view from the lower to the upper edge, in (0, π). Default 0.6.
+    pub field_of_view: f64,
+    /// What is in the middle of the picture, in coordinates of the slice, m; chosen if `None`.
+    pub target: Option<Vector<3>>,
+}
+
+impl Viewpoint {
+    /// From the right and above; a flat world is seen nearly from the front.
+    #[must_use]
+    pub fn natural(dimension: usize) -> Self {
+        let (azimuth, elevation) = if dimension == 2 { (0.12, 0.16) } else { (0.6, 0.3) };
+        Self { azimuth, elevation, field_of_view: USUAL_FIELD_OF_VIEW, target: None }
+    }
+}
 
 /// A camera that has the moving bodies in view that the slice cuts or nearly cuts, or all of them if there are none, but for
 /// the few that flew far away. `aspect` is width over height.
@@ -27,16 +52,22 @@ pub fn frame_bodies<const N: usize>(bodies: &Bodies<N>, slice: &Slice<N>, aspect
 /// As [`frame_bodies`], one camera for several moments or slices: for films, and for pictures beside each other.
 #[must_use]
 pub fn frame_all<const N: usize>(sights: &[(Bodies<N>, Slice<N>)], aspect: f64) -> Camera {
+    frame_from(sights, aspect, &Viewpoint::natural(N))
+}
+
+/// As [`frame_all`], from a viewpoint of your own.
+#[must_use]
+pub fn frame_from<const N: usize>(sights: &[(Bodies<N>, Slice<N>)], aspect: f64, viewpoint: &Viewpoint) -> Camera {
     let stages: Vec<Stage<N>> = sights.iter().map(|(bodies, slice)| Stage::new(bodies, slice)).collect();
     let up = stages.first().map_or(Vector::unit(1), |stage| stage.up);
     let balls = without_outliers(choose(&stages));
-    // A flat world is seen from the front.
-    let (azimuth, elevation) = if N == 2 { (0.12, 0.16) } else { (0.6, 0.3) };
-    let mut camera = Camera::around(middle(&balls, &[0, 1, 2].map(Vector::unit)), up, 1.0, azimuth, elevation);
+    let around = middle(&balls, &[0, 1, 2].map(Vector::unit));
+    let mut camera = Camera::around(around, up, 1.0, viewpoint.azimuth, viewpoint.elevation);
+    camera.field_of_view = viewpoint.field_of_view;
     let outward = camera.eye - camera.target;
-    let right = cross(up, outward).try_normalize().unwrap_or(Vector::unit(0));
+    let right = cross(camera.up, outward).try_normalize().unwrap_or(Vector::unit(0));
     let above = cross(outward, right);
-    camera.target = middle(&balls, &[right, above, outward]);
+    camera.target = viewpoint.target.unwrap_or_else(|| middle(&balls, &[right, above, outward]));
     let tangent = scalar::tan(0.5 * camera.field_of_view);
     // A ball that touches the edge of the picture touches a plane through the eye.
     let sight = |across: f64, radius: f64, tangent: f64| {
@@ -49,8 +80,10 @@ pub fn frame_all<const N: usize>(sights: &[(Bodies<N>, Slice<N>)], aspect: f64) 
         distance.max(outward.dot(from_target) + high.max(wide))
     });
     let largest = balls.iter().map(|(_, radius)| radius / ROOM).fold(0.0, f64::max);
-    let distance = distance.max(LEAST_DISTANCE * largest);
-    camera.eye = camera.target + outward * if distance > 0.0 { distance } else { 6.0 };
+    // A narrow view shows from farther away what a wide one shows from nearby.
+    let stretch = scalar::tan(0.5 * USUAL_FIELD_OF_VIEW) / tangent;
+    let distance = distance.max(LEAST_DISTANCE * stretch * largest);
+    camera.eye = camera.target + outward * if distance > 0.0 { distance } else { 6.0 * stretch };
     camera
 }
 

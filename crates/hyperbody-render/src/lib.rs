@@ -25,7 +25,7 @@
 //! | [`slice`](mod@slice) | [`Slice`]: which three directions of the world are seen |
 //! | [`bodies`] | [`Bodies`]: what there is, and where it is |
 //! | [`camera`] | [`Camera`]: where the eye is in the slice |
-//! | [`framing`] | [`frame_bodies`], [`frame_all`]: cameras that have everything in view |
+//! | [`framing`] | [`frame_bodies`], [`frame_all`], [`frame_from`]: cameras that have everything in view |
 //! | [`picture`] | [`render`], [`Settings`] |
 //! | [`image`] | [`Image`]: the finished picture, and PNG |
 //! | [`sheet`] | [`Sheet`]: pictures beside each other |
@@ -61,7 +61,7 @@ pub use bodies::Bodies;
 pub use camera::Camera;
 pub use error::RenderError;
 pub use film::{Film, FilmFormat};
-pub use framing::{frame_all, frame_bodies};
+pub use framing::{Viewpoint, frame_all, frame_bodies, frame_from};
 pub use image::Image;
 pub use overlay::strips_share;
 pub use picture::{Settings, render};

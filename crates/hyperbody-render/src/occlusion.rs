@@ -181,3 +181,72 @@ impl<'a> Smoother<'a> {
         Reach { sun: sun / count, sky: sky / count }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use hyperbody::prelude::{BodyDef, Shape, World, WorldDef};
+
+    use super::*;
+    use crate::bodies::Bodies;
+    use crate::slice::Slice;
+
+    /// Radius of the sun's disc at unit distance, as the documentation of the look gives it.
+    const SUN_RADIUS: f64 = 0.05;
+
+    /// A floor, and a plate whose edge x = 0 hangs `height` above it; the plate fills x > 0.
+    fn plate(height: f64) -> Stage<4> {
+        let mut world = World::<4>::new(WorldDef::default()).unwrap();
+        world.add_body(BodyDef::fixed(Shape::half_space(Vector::unit(1), 0.0).unwrap())).unwrap();
+        let plate = Shape::cuboid([50.0, 0.001, 50.0, 1.0]).unwrap();
+        world.add_body(BodyDef::fixed(plate).position([50.0, height, 0.0, 0.0])).unwrap();
+        Stage::new(&Bodies::of(&world), &Slice::natural())
+    }
+
+    /// Points of the sun's disc in rings of one area, as slopes dx/dy of the rays to them.
+    fn slopes(light: &Light) -> Vec<f64> {
+        let across = crate::camera::cross(light.sun, Vector::unit(2)).normalize_or_zero();
+        let beside = crate::camera::cross(light.sun, across);
+        let rings = (0..60).map(|ring| SUN_RADIUS * ((f64::from(ring) + 0.5) / 60.0).sqrt());
+        let points = rings.flat_map(|radius| (0..180).map(move |turn| (radius, f64::from(turn).to_radians() * 2.0)));
+        let toward =
+            |(radius, angle): (f64, f64)| light.sun + across * (radius * angle.cos()) + beside * (radius * angle.sin());
+        points.map(toward).map(|toward| toward[0] / toward[1]).collect()
+    }
+
+    /// The share of the sun that a point of the floor sees beside a plate: that of the disc's points whose rays pass the edge.
+    /// So the half-shadow is as wide as the sun, from where the plate hangs: twice as wide from twice as high.
+    #[test]
+    fn half_shadows_are_as_wide_as_the_sun_from_their_edge() {
+        let light = Light::new(Vector::unit(1), Vector([0.3, -0.2, -1.0]));
+        let rays = LightRays::new(&light, 64);
+        let slopes = slopes(&light);
+        let (low, high) = slopes.iter().fold((f64::MAX, f64::MIN), |(low, high), &s| (s.min(low), s.max(high)));
+        let mut widths = Vec::new();
+        for height in [1.0, 2.0, 4.0] {
+            let stage = plate(height);
+            let mut partly = Vec::new();
+            for step in -20..=120 {
+                let x = -height * (low + (high - low) * f64::from(step) / 100.0);
+                let seen = Seen { key: 1, point: Vector([x, 0.0, 0.0]), normal: Vector::unit(1), ..Seen::default() };
+                let mut share = 0.0;
+                for place in 0..BLOCK * BLOCK {
+                    let memory = (&mut Blockers::default(), &mut RayStack::default());
+                    share += stage.reach(&seen, &light, (place % BLOCK, place / BLOCK), &rays, memory).sun / 16.0;
+                }
+                let passing = slopes.iter().filter(|&&slope| x + height * slope < 0.0).count();
+                let exact = passing as f64 / slopes.len() as f64;
+                assert!(
+                    (f64::from(share) - exact).abs() < 0.015,
+                    "{share} instead of {exact} at {x}, {height} m below"
+                );
+                if (0.001..0.999).contains(&share) {
+                    partly.push(x);
+                }
+            }
+            widths.push((partly[0] - partly[partly.len() - 1]).abs());
+            let exact = height * (high - low);
+            assert!((widths[widths.len() - 1] / exact - 1.0).abs() < 0.06, "{widths:?} from {height} m, not {exact}");
+        }
+        assert!((widths[1] / widths[0] - 2.0).abs() < 0.1 && (widths[2] / widths[1] - 2.0).abs() < 0.1, "{widths:?}");
+    }
+}

@@ -239,15 +239,8 @@ impl<const N: usize> Stage<N> {
     }
 
     fn add_plane(&mut self, normal: Vector<N>, offset: f64, piece_from_slice: &Pose<N>) {
-        let turned = piece_from_slice.rotation.inverse_rotate(normal);
-        let seen = Slice::seen(turned);
-        let length = seen.norm();
-        // Nearly parallel to the slice: it is met far away or never.
-        if length > 1e-6 {
-            let normal_in_slice = seen / length;
-            let offset = (offset - normal.dot(piece_from_slice.translation)) / length;
-            let is_floor = normal_in_slice.dot(self.up) > 0.5;
-            self.planes.push(Plane { normal: normal_in_slice, offset, is_floor });
+        if let SlicePlane::Across { normal, offset } = slice_plane(normal, offset, piece_from_slice) {
+            self.planes.push(Plane { normal, offset, is_floor: normal.dot(self.up) > 0.5 });
         }
     }
 
@@ -278,6 +271,27 @@ impl<const N: usize> Stage<N> {
                 }
             }
         }
+    }
+}
+
+/// What the slice has of the boundary of a half-space.
+pub(crate) enum SlicePlane {
+    /// A plane across it: normal·x = offset, in slice coordinates.
+    Across { normal: Vector<3>, offset: f64 },
+    /// Nothing nearby: they run along each other, and the slice is so high above the solid, m.
+    Along { height: f64 },
+}
+
+/// The boundary of the half-space normal·p ≤ offset, in the frame of the piece, as the slice has it.
+pub(crate) fn slice_plane<const N: usize>(normal: Vector<N>, offset: f64, piece_from_slice: &Pose<N>) -> SlicePlane {
+    let seen = Slice::seen(piece_from_slice.rotation.inverse_rotate(normal));
+    let length = seen.norm();
+    let below = offset - normal.dot(piece_from_slice.translation);
+    // Nearly parallel to the slice: it is met far away or never.
+    if length > 1e-6 {
+        SlicePlane::Across { normal: seen / length, offset: below / length }
+    } else {
+        SlicePlane::Along { height: -below }
     }
 }
 

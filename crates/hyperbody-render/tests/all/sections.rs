@@ -2,23 +2,12 @@
 
 use std::sync::Arc;
 
-use crate::common::{PIXEL, SIDE, covered, far_camera, settings, world_of};
-use hyperbody::geometry::section::{SectionPolytope, SliceFrame};
-use hyperbody::geometry::{Polytope, regular};
-use hyperbody::math::{Bivector, Pose, Rotation, Vector};
-use hyperbody::prelude::{BodyDef, BodyKind, Shape, World, WorldDef};
-use hyperbody_render::{Bodies, Camera, Settings, Slice, frame_all, frame_bodies, render, strips_share};
-
-/// A rotation in every plane, by the same rule in every dimension.
-fn turned<const N: usize>(scale: f64) -> Rotation<N> {
-    let mut turn = Bivector::ZERO;
-    for i in 0..N {
-        for j in i + 1..N {
-            turn.set(i, j, scale * (0.7 + 0.31 * i as f64 - 0.23 * j as f64));
-        }
-    }
-    Rotation::exp(&turn)
-}
+use crate::common::{PIXEL, SIDE, count, covered, cut, far_camera, heap, settings, shadow, turned, world_of};
+use hyperbody::geometry::regular;
+use hyperbody::geometry::section::SectionPolytope;
+use hyperbody::math::{Pose, Vector};
+use hyperbody::prelude::Shape;
+use hyperbody_render::{Bodies, Settings, Slice, frame_bodies, render};
 
 /// A ball of radius r whose centre is d beside the slice shows as a ball of radius √(r² − d²).
 fn a_ball_has_its_radius<const N: usize>() {
@@ -62,33 +51,14 @@ fn a_section_of_a_ball_has_the_exact_radius() {
     a_ball_has_its_radius::<6>();
 }
 
-/// The area of the shadow of a solid along its third axis.
-fn shadow(section: &SectionPolytope<3>) -> f64 {
-    let points: Vec<Vector<2>> = section.vertices().iter().map(|v| Vector([v[0], v[1]])).collect();
-    let hull = Polytope::from_points(&points).unwrap();
-    // Shoelace formula over the edges, which come with outward normals.
-    hull.facets()
-        .iter()
-        .map(|edge| {
-            let [a, b] = [edge.vertices[0], edge.vertices[1]].map(|v| hull.vertices()[v as usize]);
-            0.5 * edge.offset * a.distance(b)
-        })
-        .sum()
-}
-
-/// Cuts by the hyperplane in which the last coordinate is zero.
-fn cut<const N: usize, const M: usize>(polytope: &SectionPolytope<N>) -> SectionPolytope<M> {
-    polytope.section(&SliceFrame::new(Pose::IDENTITY))
-}
-
 /// The picture of a polytope beside the exact section, which is cut from its face lattice, one hidden axis after the other.
 fn area_is_exact<const N: usize>(name: &str, offset: f64, section: impl Fn(&SectionPolytope<N>) -> SectionPolytope<3>) {
     let polytope = regular::polytope::<N>(name, regular::Size::Circumradius(1.7)).unwrap();
     let place = Vector::from_fn(|i| [0.1, 0.2, -0.1, offset, -0.5 * offset, 0.3 * offset][i]);
     let slice = Slice::<N>::new(Pose::new(turned(0.8), place));
-    let exact = shadow(&section(&SectionPolytope::from_polytope(&polytope).placed(&slice.pose().inverse())));
+    let exact = shadow(&section(&SectionPolytope::from_polytope(&polytope).placed(&slice.pose().inverse())))[0];
     let world = world_of(Shape::polytope(Arc::new(polytope)).unwrap(), Pose::IDENTITY);
-    let area = covered(&world, &slice).into_iter().filter(|&pixel| pixel).count() as f64 * PIXEL * PIXEL;
+    let area = count(&covered(&world, &slice)) as f64 * PIXEL * PIXEL;
     assert!(exact > 1.0, "{name} in {N}D: the slice cuts it in {exact} m² only, which proves little");
     assert!((area / exact - 1.0).abs() < 0.01, "{name} in {N}D: {area} m² instead of {exact} m²");
 }
@@ -113,26 +83,6 @@ fn a_turned_slice_shows_a_box_by_its_diagonal() {
     let area = pixels.into_iter().filter(|&pixel| pixel).count() as f64 * PIXEL * PIXEL;
     let exact = 4.0 * 2.0_f64.sqrt();
     assert!((area / exact - 1.0).abs() < 0.01, "{area} m² instead of {exact} m²");
-}
-
-/// Boxes and balls in a heap on a floor.
-fn heap<const N: usize>() -> World<N> {
-    let mut world = World::new(WorldDef::default()).unwrap();
-    world.add_body(BodyDef::fixed(Shape::half_space(Vector::unit(1), 0.0).unwrap())).unwrap();
-    for index in 0..12 {
-        let shape = if index % 2 == 0 { Shape::cuboid([0.5; N]) } else { Shape::ball(0.6) };
-        let position = Vector::from_fn(|i| match i {
-            1 => 0.6 + 0.5 * f64::from(index),
-            _ => 0.4 * f64::from((index * (i as i32 + 2)) % 5) - 0.8,
-        });
-        world
-            .add_body(BodyDef::new(shape.unwrap()).position(position).rotation(turned(0.1 * f64::from(index))))
-            .unwrap();
-    }
-    for _ in 0..20 {
-        world.step();
-    }
-    world
 }
 
 fn same_bytes<const N: usize>() {
@@ -170,71 +120,6 @@ fn bodies_have_the_colours_that_they_are_given() {
     };
     let (first, second) = (middle([1.0, 0.0, 0.0]), middle([0.0, 0.0, 1.0]));
     assert!(first[0] / 2 > first[2] && second[2] / 2 > second[0], "{first:?} should be red and {second:?} blue");
-}
-
-/// Where a point is in a square picture: from −1 to 1 across and upwards.
-fn in_picture(camera: &Camera, point: Vector<3>) -> [f64; 2] {
-    let cross = |a: Vector<3>, b: Vector<3>| {
-        Vector([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-    };
-    let forward = (camera.target - camera.eye).try_normalize().unwrap();
-    let right = cross(forward, camera.up).try_normalize().unwrap();
-    let from_eye = point - camera.eye;
-    let scale = (0.5 * camera.field_of_view).tan() * from_eye.dot(forward);
-    [right, cross(right, forward)].map(|direction| from_eye.dot(direction) / scale)
-}
-
-/// One camera has all moments in view, and the bodies fill the picture from edge to edge one way at least.
-fn everything_is_in_view<const N: usize>() {
-    let (slice, mut world) = (Slice::<N>::natural(), heap::<N>());
-    let mut sights = vec![(Bodies::of(&world), slice)];
-    let mut points: Vec<Vector<3>> = Vec::new();
-    for _ in 0..2 {
-        let moving = world.bodies().filter(|(_, body)| body.kind() == BodyKind::Dynamic);
-        points.extend(moving.map(|(_, body)| Slice::seen(slice.coordinates(body.position()))));
-        (0..60).for_each(|_| world.step());
-        sights.push((Bodies::of(&world), slice));
-    }
-    let camera = frame_all(&sights, 1.0);
-    let places: Vec<[f64; 2]> = points.iter().map(|&point| in_picture(&camera, point)).collect();
-    let reach = |axis: usize| places.iter().map(|place| place[axis].abs()).fold(0.0, f64::max);
-    assert!(reach(0) < 0.95 && reach(1) < 0.95, "{places:?} in {N}D");
-    assert!(reach(0).max(reach(1)) > 0.5, "{places:?} in {N}D");
-}
-
-#[test]
-fn a_film_has_everything_in_view() {
-    everything_is_in_view::<2>();
-    everything_is_in_view::<3>();
-}
-
-#[test]
-fn a_camera_makes_room_at_the_right_edge() {
-    let camera = far_camera();
-    // A quarter of the width is taken: the middle of the rest is at three eighths, which is −1/4 of the way to the edge.
-    let place = in_picture(&camera.with_room(0.25, 1.0), camera.target);
-    assert!((place[0] + 0.25).abs() < 1e-9 && place[1].abs() < 1e-9, "{place:?}");
-    assert_eq!(strips_share(3, 1280, 720), 0.0, "three dimensions have nothing to hide");
-    for dimension in 4..=6 {
-        assert!((strips_share(dimension, 1280, 720) - strips_share(dimension, 640, 360)).abs() < 1e-6);
-        assert!(strips_share(dimension, 1280, 720) > strips_share(dimension - 1, 1280, 720));
-    }
-}
-
-#[test]
-fn a_body_that_flew_away_and_a_single_one_make_good_pictures() {
-    let mut world = heap::<4>();
-    let slice = Slice::natural();
-    let before = frame_bodies(&Bodies::of(&world), &slice, 1.5);
-    let lost = BodyDef::new(Shape::ball(0.5).unwrap()).position([1e4, 3.0, 0.0, 0.0]);
-    world.add_body(lost).unwrap();
-    let after = frame_bodies(&Bodies::of(&world), &slice, 1.5);
-    let (near, far) = (before.eye.distance(before.target), after.eye.distance(after.target));
-    assert!((near / far - 1.0).abs() < 0.2, "{near} m without it and {far} m with it");
-    let alone = world_of(Shape::<4>::ball(0.5).unwrap(), Pose::IDENTITY);
-    let camera = frame_bodies(&Bodies::of(&alone), &slice, 1.5);
-    let share = 0.5 / camera.eye.distance(camera.target) / (0.5 * camera.field_of_view).tan();
-    assert!((0.3..0.8).contains(&share), "the ball takes up {share} of the picture's height");
 }
 
 #[test]
