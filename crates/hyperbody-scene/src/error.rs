@@ -99,7 +99,8 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 
 /// The known name that a person who typed `name` most likely meant, or `None` where nothing is like it: a wrong hint is
 /// worse than none.
-pub(crate) fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+#[must_use]
+pub fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     most_like(name, known).filter(|(likeness, _)| *likeness >= LIKE).map(|(_, candidate)| candidate)
 }
 

@@ -38,7 +38,7 @@ mod write;
 
 pub use build::{MAX_BODIES, MAX_JOINTS, MAX_VERTICES};
 pub use dimension::{DIMENSIONS, DimensionVisitor, visit_dimension};
-pub use error::{ErrorKind, SceneError, nearest};
+pub use error::{ErrorKind, SceneError, meant, nearest};
 pub use gallery::{BUILT_IN, BuiltIn, built_in};
 pub use jitter::JITTER;
 pub use model::{

@@ -45,22 +45,15 @@ fn checksum(kind: [u8; 4], payload: &[u8]) -> u32 {
     hasher.finalize()
 }
 
-/// A block that was read, its checksum being right.
-pub(super) struct Block {
-    pub(super) kind: [u8; 4],
-    pub(super) payload: Vec<u8>,
-    /// Where it begins.
-    pub(super) offset: u64,
+/// Kind and length of a block, which nothing proves yet.
+struct Head {
+    kind: [u8; 4],
+    length: u32,
 }
 
-impl Block {
-    /// Where the next one begins.
-    pub(super) fn end(&self) -> u64 {
-        self.offset + self.payload.len() as u64 + OVERHEAD
-    }
-
-    /// The block at `offset` in a file of `file_length` bytes.
-    pub(super) fn read(reader: &mut (impl Read + Seek), offset: u64, file_length: u64) -> Result<Self> {
+impl Head {
+    /// What stands at `offset` in a file of `file_length` bytes; the whole block lies in the file. The payload is next in the reader.
+    fn read(reader: &mut (impl Read + Seek), offset: u64, file_length: u64) -> Result<Self> {
         let left = file_length.saturating_sub(offset);
         if left < OVERHEAD {
             return Err(RecordingError::cut_off(file_length, "a block is missing"));
@@ -73,21 +66,88 @@ impl Block {
         if !kind.iter().all(u8::is_ascii_uppercase) {
             return Err(RecordingError::damaged(offset, "no block begins here"));
         }
+        let head = Self { kind, length };
         if u64::from(length) > left - OVERHEAD {
-            let name = String::from_utf8_lossy(&kind).into_owned();
-            let what = format!("block {name} of {length} bytes began at byte {offset}");
+            let what = format!("block {} of {length} bytes began at byte {offset}", head.name());
             return Err(RecordingError::cut_off(file_length, what));
         }
-        let mut payload = vec![0; length as usize];
-        reader.read_exact(&mut payload)?;
+        Ok(head)
+    }
+
+    fn name(&self) -> String {
+        String::from_utf8_lossy(&self.kind).into_owned()
+    }
+
+    /// Whether the checksum that is next in the reader is the one of the block.
+    fn check(&self, reader: &mut impl Read, expected: u32, offset: u64) -> Result<()> {
         let mut sum = [0; 4];
         reader.read_exact(&mut sum)?;
-        if u32::from_le_bytes(sum) != checksum(kind, &payload) {
-            let name = String::from_utf8_lossy(&kind).into_owned();
-            return Err(RecordingError::damaged(offset, format!("the checksum of block {name} does not fit")));
+        if u32::from_le_bytes(sum) == expected {
+            return Ok(());
         }
-        Ok(Self { kind, payload, offset })
+        Err(RecordingError::damaged(offset, format!("the checksum of block {} does not fit", self.name())))
     }
+}
+
+/// A block that was read, its checksum being right.
+pub(super) struct Block {
+    pub(super) payload: Vec<u8>,
+    /// Where it begins.
+    pub(super) offset: u64,
+}
+
+impl Block {
+    /// Where the next one begins.
+    pub(super) fn end(&self) -> u64 {
+        self.offset + self.payload.len() as u64 + OVERHEAD
+    }
+
+    /// The block at `offset` in a file of `file_length` bytes, if it is of this kind. Kind and length are looked at before
+    /// memory is taken for it: a payload of more than `most` bytes is refused.
+    pub(super) fn read(
+        reader: &mut (impl Read + Seek),
+        kind: [u8; 4],
+        most: u64,
+        offset: u64,
+        file_length: u64,
+    ) -> Result<Option<Self>> {
+        let head = Head::read(reader, offset, file_length)?;
+        if head.kind != kind {
+            return Ok(None);
+        }
+        if u64::from(head.length) > most {
+            let what = format!("block {} has {} bytes, where {most} are the most", head.name(), head.length);
+            return Err(RecordingError::damaged(offset, what));
+        }
+        let mut payload = vec![0; head.length as usize];
+        reader.read_exact(&mut payload)?;
+        head.check(reader, checksum(kind, &payload), offset)?;
+        Ok(Some(Self { payload, offset }))
+    }
+
+    /// Goes over a block of any kind and length, checks it piece by piece, and gives its kind and where it ends.
+    pub(super) fn pass(reader: &mut (impl Read + Seek), offset: u64, file_length: u64) -> Result<([u8; 4], u64)> {
+        let head = Head::read(reader, offset, file_length)?;
+        let mut hasher = crc32fast::Hasher::new();
+        hasher.update(&head.kind);
+        hasher.update(&head.length.to_le_bytes());
+        let mut piece = [0; 1 << 14];
+        let mut left = head.length as usize;
+        while left > 0 {
+            let next = &mut piece[..left.min(1 << 14)];
+            reader.read_exact(next)?;
+            hasher.update(next);
+            left -= next.len();
+        }
+        head.check(reader, hasher.finalize(), offset)?;
+        Ok((head.kind, offset + u64::from(head.length) + OVERHEAD))
+    }
+}
+
+/// Most bytes that so many take packed: every packer can store what it cannot make smaller, at an eighth more for those that
+/// know fixed codes alone.
+pub(super) const fn most_packed(bytes: u64) -> u64 {
+    bytes + bytes / 8 + 1024
 }
 
 /// DEFLATE in a zlib frame (RFC 1950).

@@ -35,6 +35,11 @@ impl Layout {
     pub(super) fn frame_bytes(self) -> usize {
         16 + self.bodies + 8 * self.numbers()
     }
+
+    /// Most bytes that the frames of a block have before packing: a block is full with the frame that passes the limit.
+    pub(super) fn most_block_bytes(self) -> u64 {
+        (MAX_FRAMES * self.frame_bytes()).min(FULL_BYTES + self.frame_bytes()) as u64
+    }
 }
 
 /// What a block stores of frames; they have to fit the layout.

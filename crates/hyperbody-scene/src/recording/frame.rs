@@ -5,6 +5,7 @@ use hyperbody::prelude::{BodyHandle, World};
 
 use crate::dimension::{DimensionVisitor, visit_dimension};
 use crate::world::AnyWorld;
+use hyperbody::dynamics::POSITION_LIMIT;
 
 /// Where every body of a scene is at one step, in the order of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,6 +19,35 @@ pub struct Frame {
     pub poses: Vec<f64>,
     /// For each body, [`Frame::SLEEPING`] and [`Frame::QUARANTINED`].
     pub flags: Vec<u8>,
+}
+
+/// Largest coordinate of a pose, m: of the origin of a body's frame, which may lie beside its middle, and of a body that
+/// passes the limit of the simulation in the very step that is recorded.
+const FARTHEST: f64 = 2.0 * POSITION_LIMIT;
+
+/// What is wrong with the numbers of a frame.
+struct Fault<'a>(&'a Frame);
+
+impl DimensionVisitor for Fault<'_> {
+    type Output = Option<String>;
+
+    fn visit<const N: usize>(self) -> Option<String>
+    where
+        Dim<N>: EvenAlgebra,
+    {
+        let frame = self.0;
+        (0..frame.body_count()).find_map(|body| {
+            let numbers = frame.poses.chunks_exact(Frame::numbers(N)).nth(body)?;
+            if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+                return Some(format!("a number of the pose of body {body} is {number}, which is not finite"));
+            }
+            if let Some(place) = numbers[..N].iter().find(|place| place.abs() > FARTHEST) {
+                let limit = format!("places lie within ±{POSITION_LIMIT:e} m");
+                return Some(format!("body {body} is at a coordinate of {place:e} m; {limit}"));
+            }
+            frame.pose::<N>(body).is_none().then(|| format!("the matrix of body {body} is no rotation"))
+        })
+    }
 }
 
 struct Capture<'a>(&'a AnyWorld);
@@ -67,6 +97,14 @@ impl Frame {
                 u8::from(body.is_sleeping()) * Self::SLEEPING + u8::from(body.is_quarantined()) * Self::QUARANTINED
             }));
         }
+    }
+
+    /// What of it no simulation could mean, if anything, in words.
+    pub(super) fn fault(&self, dimension: usize) -> Option<String> {
+        if !self.time.is_finite() {
+            return Some(format!("the time is {}, which is not finite", self.time));
+        }
+        visit_dimension(dimension, Fault(self)).flatten()
     }
 
     /// Number of bodies.

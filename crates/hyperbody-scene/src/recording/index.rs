@@ -1,6 +1,7 @@
 //! The index: which block holds which frames.
 
 use super::block::Cursor;
+use super::codec::MAX_FRAMES;
 use super::{RecordingError, Result};
 
 /// One block of frames.
@@ -14,6 +15,9 @@ pub(super) struct Entry {
     pub(super) first_step: u64,
     pub(super) last_step: u64,
 }
+
+/// Most bytes of an index, for which a reader takes memory: two million blocks, 8 TiB of full ones.
+pub(super) const MAX_INDEX_BYTES: u64 = 64 << 20;
 
 /// All blocks of frames, and how many frames there are.
 #[derive(Clone, Debug, Default)]
@@ -49,7 +53,10 @@ impl Index {
         cursor.finish()?;
         let ascending =
             |a: &Entry, b: &Entry| a.offset < b.offset && a.first_frame < b.first_frame && a.last_step < b.first_step;
-        let sound = entries.windows(2).all(|pair| ascending(&pair[0], &pair[1]))
+        let counted = entries.iter().map(|entry| entry.first_frame).skip(1).chain([frame_count]);
+        let fits = |(entry, next): (&Entry, u64)| next.saturating_sub(entry.first_frame) <= MAX_FRAMES as u64;
+        let sound = entries.iter().zip(counted).all(fits)
+            && entries.windows(2).all(|pair| ascending(&pair[0], &pair[1]))
             && entries.iter().all(|entry| entry.first_step <= entry.last_step && entry.offset < offset)
             && entries.first().is_none_or(|entry| entry.first_frame == 0)
             && entries.last().map_or(frame_count == 0, |entry| entry.first_frame < frame_count);

@@ -4,7 +4,7 @@ use std::io::{Read, Seek, SeekFrom};
 
 use super::block::{self, Block, Cursor};
 use super::codec::{self, Layout};
-use super::index::Index;
+use super::index::{Index, MAX_INDEX_BYTES};
 use super::{Frame, MAGIC, RECORDING_VERSION, RecordingError, RecordingErrorKind, Result};
 use crate::build::{MAX_BODIES, MAX_SHAPE_FILE_BYTES};
 use crate::dimension::DIMENSIONS;
@@ -49,10 +49,10 @@ impl<R: Read + Seek> RecordingReader<R> {
         let (mut scene, mut offset) = read_scene(&mut reader, length)?;
         let layout = Layout { dimension: scene.dimension, bodies: scene.bodies.len() };
         let index_offset = find_index(&mut reader, offset, length)?;
-        let index_block = Block::read(&mut reader, index_offset, length)?;
-        if index_block.kind != block::INDEX {
-            return Err(RecordingError::damaged(index_offset, "the index is not where the end of the file says"));
-        }
+        let index_block = Block::read(&mut reader, block::INDEX, MAX_INDEX_BYTES, index_offset, length)?;
+        let index_block = index_block
+            .filter(|block| block.end() + block::END_BYTES == length)
+            .ok_or_else(|| RecordingError::damaged(index_offset, "the index is not where the end of the file says"))?;
         let index = Index::from_bytes(&index_block.payload, index_offset)?;
         offset = read_files(&mut reader, &mut scene, offset, length)?;
         if index.entries.first().map_or(index_offset, |entry| entry.offset) != offset {
@@ -89,7 +89,7 @@ impl<R: Read + Seek> RecordingReader<R> {
     /// Bytes that the poses would take unpacked.
     #[must_use]
     pub fn raw_byte_count(&self) -> u64 {
-        self.index.frame_count * self.layout.frame_bytes() as u64
+        self.index.frame_count.saturating_mul(self.layout.frame_bytes() as u64)
     }
 
     /// A frame by number, from 0; `None` beyond the last.
@@ -128,8 +128,7 @@ impl<R: Read + Seek> RecordingReader<R> {
             if entry.offset != offset {
                 return Err(RecordingError::damaged(offset, "a block of frames is not where the index says"));
             }
-            self.block(number)?;
-            offset = Block::read(&mut self.reader, offset, self.length)?.end();
+            (_, offset) = self.read_block(number)?;
             tell(entry.first_frame + self.index.frames_in(number));
         }
         if offset != self.index_offset {
@@ -141,19 +140,20 @@ impl<R: Read + Seek> RecordingReader<R> {
     /// The frames of a block, from memory if it was the last one read.
     fn block(&mut self, number: usize) -> Result<&[Frame]> {
         if self.cached.as_ref().is_none_or(|(cached, _)| *cached != number) {
-            let frames = self.read_block(number)?;
+            let (frames, _) = self.read_block(number)?;
             self.cached = Some((number, frames));
         }
         Ok(self.cached.as_ref().map_or(&[], |(_, frames)| frames))
     }
 
-    fn read_block(&mut self, number: usize) -> Result<Vec<Frame>> {
+    /// The frames of a block, and where the next one begins.
+    fn read_block(&mut self, number: usize) -> Result<(Vec<Frame>, u64)> {
         let entry = self.index.entries[number];
-        let block = Block::read(&mut self.reader, entry.offset, self.length)?;
         let refuse = |what: &str| Err(RecordingError::damaged(entry.offset, what));
-        if block.kind != block::FRAMES {
+        let most = block::most_packed(self.layout.most_block_bytes());
+        let Some(block) = Block::read(&mut self.reader, block::FRAMES, most, entry.offset, self.length)? else {
             return refuse("a block of frames is not where the index says");
-        }
+        };
         let frames = codec::decode(&block.payload, self.layout, entry.offset)?;
         let fits = frames.len() as u64 == self.index.frames_in(number)
             && frames.first().is_some_and(|frame| frame.step == entry.first_step)
@@ -162,10 +162,11 @@ impl<R: Read + Seek> RecordingReader<R> {
         if !fits {
             return refuse("the frames there are not those of the index");
         }
-        if frames.iter().any(|frame| !frame.time.is_finite() || frame.poses.iter().any(|number| !number.is_finite())) {
-            return refuse("a pose is not finite");
+        let dimension = self.layout.dimension;
+        if let Some((step, fault)) = frames.iter().find_map(|frame| Some((frame.step, frame.fault(dimension)?))) {
+            return refuse(&format!("at step {step} {fault}"));
         }
-        Ok(frames)
+        Ok((frames, block.end()))
     }
 }
 
@@ -204,10 +205,9 @@ fn text_of(bytes: Vec<u8>, offset: u64) -> Result<String> {
 
 /// The scene, still without its files, and where the next block begins.
 fn read_scene(reader: &mut (impl Read + Seek), length: u64) -> Result<(Scene, u64)> {
-    let block = Block::read(reader, MAGIC.len() as u64 + 4, length)?;
-    if block.kind != block::SCENE {
-        return Err(RecordingError::damaged(block.offset, "the scene should stand here"));
-    }
+    let (start, most) = (MAGIC.len() as u64 + 4, block::most_packed(MAX_FILE_BYTES));
+    let block = Block::read(reader, block::SCENE, most, start, length)?
+        .ok_or_else(|| RecordingError::damaged(start, "the scene should stand here"))?;
     let bytes = block::unpack(&block.payload, MAX_FILE_BYTES as usize, block.offset)?;
     let scene = Scene::from_json(&text_of(bytes, block.offset)?)
         .map_err(|error| RecordingError::content(format!("the scene in the recording: {error}")))?;
@@ -227,10 +227,8 @@ fn read_scene(reader: &mut (impl Read + Seek), length: u64) -> Result<(Scene, u6
 fn read_files(reader: &mut (impl Read + Seek), scene: &mut Scene, mut offset: u64, length: u64) -> Result<u64> {
     let mut left = MAX_CARRIED_BYTES;
     for _ in 0..=MAX_FILES {
-        let block = Block::read(reader, offset, length)?;
-        if block.kind != block::FILE {
-            return Ok(offset);
-        }
+        let most = 2 + u64::from(u16::MAX) + block::most_packed(MAX_SHAPE_FILE_BYTES);
+        let Some(block) = Block::read(reader, block::FILE, most, offset, length)? else { return Ok(offset) };
         let mut cursor = Cursor::new(&block.payload, offset);
         let name_length = cursor.u16()?;
         let name = text_of(cursor.take(usize::from(name_length))?.to_vec(), offset)?;
@@ -248,9 +246,7 @@ fn read_files(reader: &mut (impl Read + Seek), scene: &mut Scene, mut offset: u6
 /// Where the index is, from the last block; without that one, where the file stops making sense.
 fn find_index(reader: &mut (impl Read + Seek), first_offset: u64, length: u64) -> Result<u64> {
     let end = length.checked_sub(block::END_BYTES).filter(|&end| end >= first_offset);
-    if let Some(Ok(block)) = end.map(|end| Block::read(reader, end, length))
-        && block.kind == block::END
-    {
+    if let Some(Ok(Some(block))) = end.map(|end| Block::read(reader, block::END, 8, end, length)) {
         let mut cursor = Cursor::new(&block.payload, block.offset);
         let offset = cursor.u64()?;
         if offset < first_offset || offset >= block.offset {
@@ -261,12 +257,12 @@ fn find_index(reader: &mut (impl Read + Seek), first_offset: u64, length: u64) -
     let mut offset = first_offset;
     // Every block has at least twelve bytes, so this ends.
     while offset < length {
-        let block = Block::read(reader, offset, length)?;
-        if block.kind == block::END && block.end() < length {
-            let more = length - block.end();
-            return Err(RecordingError::damaged(block.end(), format!("{more} bytes follow the end of the recording")));
+        let (kind, end) = Block::pass(reader, offset, length)?;
+        if kind == block::END && end < length {
+            let more = length - end;
+            return Err(RecordingError::damaged(end, format!("{more} bytes follow the end of the recording")));
         }
-        offset = block.end();
+        offset = end;
     }
     Err(RecordingError::cut_off(length, "the index and the end are missing, as when a run was interrupted"))
 }

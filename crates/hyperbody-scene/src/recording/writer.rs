@@ -4,9 +4,10 @@ use std::io::Write;
 
 use super::block;
 use super::codec::{self, FULL_BYTES, Layout, MAX_FRAMES};
-use super::index::{Entry, Index};
+use super::index::{Entry, Index, MAX_INDEX_BYTES};
 use super::reader::{MAX_CARRIED_BYTES, MAX_FILES};
 use super::{Frame, MAGIC, RECORDING_VERSION, RecordingError, Result};
+use crate::build::MAX_BODIES;
 use crate::dimension::DIMENSIONS;
 use crate::model::Scene;
 use crate::read::MAX_FILE_BYTES;
@@ -37,12 +38,13 @@ impl<W: Write> RecordingWriter<W> {
     /// files that it names are read and go into the recording.
     ///
     /// # Errors
-    /// If the scene's dimension is not in 2..=6, a file that it names cannot be read, or the writer fails.
+    /// If the scene's dimension is not in 2..=6, it is larger than docs/recording-format.md allows, a file that it names cannot be read, or the writer fails.
     pub fn new(mut writer: W, scene: &Scene) -> Result<Self> {
         if !DIMENSIONS.contains(&scene.dimension) {
             let message = format!("a scene of {} dimensions cannot be recorded; there are 2 to 6", scene.dimension);
             return Err(RecordingError::content(message));
         }
+        refuse_large("the scene has", scene.bodies.len() as u64, MAX_BODIES as u64, "bodies")?;
         let mut scene = scene.clone();
         scene.carry_files()?;
         let text = scene.to_json();
@@ -77,7 +79,8 @@ impl<W: Write> RecordingWriter<W> {
     /// Adds a frame.
     ///
     /// # Errors
-    /// If it has other bodies than the scene, its step does not come after the one before, or the writer fails.
+    /// If it has other bodies than the scene, its step does not come after the one before, its time or a pose is not finite,
+    /// a place is out of bounds or a matrix no rotation, or the writer fails.
     pub fn add(&mut self, frame: Frame) -> Result<()> {
         if frame.body_count() != self.layout.bodies || frame.poses.len() != self.layout.numbers() {
             return Err(RecordingError::content(format!(
@@ -87,6 +90,10 @@ impl<W: Write> RecordingWriter<W> {
                 self.layout.bodies,
                 self.layout.numbers()
             )));
+        }
+        if let Some(fault) = frame.fault(self.layout.dimension) {
+            let message = format!("step {} cannot be recorded: {fault}", frame.step);
+            return Err(RecordingError::content(message));
         }
         let before = self.frames.last().map(|frame| frame.step);
         let before = before.or_else(|| self.index.entries.last().map(|entry| entry.last_step));
@@ -117,11 +124,12 @@ impl<W: Write> RecordingWriter<W> {
     /// Writes what is left, the index and the end, and gives the writer back, flushed.
     ///
     /// # Errors
-    /// If the writer fails.
+    /// If the recording is longer than its index can say, or the writer fails.
     pub fn finish(mut self) -> Result<W> {
         self.write_frames()?;
-        let index_offset = self.length;
-        block::write(&mut self.writer, block::INDEX, &self.index.to_bytes())?;
+        let (index_offset, index) = (self.length, self.index.to_bytes());
+        refuse_large("the index has", index.len() as u64, MAX_INDEX_BYTES, "bytes")?;
+        block::write(&mut self.writer, block::INDEX, &index)?;
         block::write(&mut self.writer, block::END, &index_offset.to_le_bytes())?;
         self.writer.flush()?;
         Ok(self.writer)

@@ -2,6 +2,7 @@
 
 mod gallery;
 mod gallery_sentences;
+mod hostile_recordings;
 mod hostile_text;
 mod mesh_bodies;
 mod recording;
