@@ -171,7 +171,7 @@ fn no_memory_is_taken_for_blocks_that_are_too_large() {
     let gigabytes = |kind: &[u8; 4]| ([&kind[..], &3_000_000_000_u32.to_le_bytes()].concat(), 3_000_000_004);
     let refused = |parts: Vec<(Vec<u8>, u64)>, words: &str| {
         let file = Sparse { parts, place: 0, read: 0 };
-        let error = RecordingReader::new(file).and_then(|mut recording| recording.verify(|_| ())).err().expect(words);
+        let error = RecordingReader::new(file).and_then(|mut recording| recording.verify(|_| ())).expect_err(words);
         assert_eq!(error.kind(), RecordingErrorKind::Damaged, "{error}");
         assert!(error.to_string().contains(words), "{error}");
     };
