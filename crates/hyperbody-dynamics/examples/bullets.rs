@@ -4,8 +4,11 @@
 //! Every bullet flies at 500 m/s and 60 steps a second, from a random place in a random direction with a random attitude and
 //! spin, at a wall 1 cm thick. What is counted is the centres of pieces that come out on the other side.
 
+mod common;
+
 use std::sync::Arc;
 
+use common::Random;
 use hyperbody_dynamics::{BodyDef, BodyHandle, BodyKind, World, WorldDef};
 use hyperbody_geometry::{Polytope, Shape, regular};
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
@@ -18,19 +21,7 @@ const STEPS: usize = 24;
 
 type Error = Box<dyn std::error::Error>;
 
-/// Numbers in [−1, 1) by SplitMix64 (S. Vigna, 2015).
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (0.5 + 0.5 * self.next())
     }

@@ -4,8 +4,11 @@
 //! Each pile falls for seven seconds; then the fastest of the steps that follow is taken, which other work on the machine
 //! disturbs least.
 
+mod common;
+
 use std::time::Instant;
 
+use common::Random;
 use hyperbody_dynamics::{BodyDef, World, WorldDef, WorldError};
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Rotation, Vector};
@@ -14,20 +17,6 @@ const N: usize = 4;
 const SPACING: f64 = 1.9;
 const SETTLING_STEPS: usize = 420;
 const TIMED_STEPS: usize = 40;
-
-/// Numbers in [−1, 1) by SplitMix64 (S. Vigna, 2015).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
 
 /// Layers of `across`³ turned tesseracts with edges of 1 m over a pit.
 fn pile(across: usize, layers: usize) -> Result<World<N>, WorldError> {

@@ -1,8 +1,11 @@
 //! Rays a second on one thread against 1,000 cubes in a pile, in every dimension:
 //! `cargo run --release -p hyperbody-dynamics --example ray_speed`
 
+mod common;
+
 use std::time::Instant;
 
+use common::Random;
 use hyperbody_collision::ray::Ray;
 use hyperbody_dynamics::{BodyDef, QueryFilter, QueryScratch, World, WorldDef, WorldError};
 use hyperbody_geometry::Shape;
@@ -11,19 +14,7 @@ use hyperbody_math::{Bivector, Rotation, Vector};
 const BODIES: usize = 1000;
 const RAYS: usize = 1_000_000;
 
-/// Numbers in [−1, 1) by SplitMix64 (S. Vigna, 2015).
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
     fn vector<const N: usize>(&mut self, reach: f64) -> Vector<N> {
         Vector::from_fn(|_| self.next() * reach)
     }

@@ -176,16 +176,20 @@ impl<const N: usize> Update<'_, N> {
         }
     }
 
-    fn look_closer(&self, pair: &mut Pair<N>, way: f64, scratch: &mut Scratch<N>) {
-        let (Some(a), Some(b)) = (&self.colliders[pair.collider_a as usize], &self.colliders[pair.collider_b as usize])
-        else {
-            return;
-        };
-        let (Some(body_a), Some(body_b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return };
+    /// The colliders and bodies of a pair; of bodies in quarantine none, and what was known of the pair is forgotten.
+    pub(crate) fn sides(&self, pair: &mut Pair<N>) -> Option<[(&Collider<N>, &Body<N>); 2]> {
+        let a = self.colliders[pair.collider_a as usize].as_ref()?;
+        let b = self.colliders[pair.collider_b as usize].as_ref()?;
+        let (body_a, body_b) = (self.bodies.at(pair.body_a)?, self.bodies.at(pair.body_b)?);
         if body_a.quarantined || body_b.quarantined {
             pair.forget();
-            return;
+            return None;
         }
+        Some([(a, body_a), (b, body_b)])
+    }
+
+    fn look_closer(&self, pair: &mut Pair<N>, way: f64, scratch: &mut Scratch<N>) {
+        let Some([(a, body_a), (b, body_b)]) = self.sides(pair) else { return };
         let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
         let closing = self.closing_distance(body_a, body_b);
         if let Some(kept) = &pair.search.a_from_b

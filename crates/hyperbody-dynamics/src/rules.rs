@@ -166,15 +166,7 @@ impl<const N: usize> Update<'_, N> {
         if way <= pair.holds_until {
             return;
         }
-        let (Some(a), Some(b)) = (&self.colliders[pair.collider_a as usize], &self.colliders[pair.collider_b as usize])
-        else {
-            return;
-        };
-        let (Some(body_a), Some(body_b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return };
-        if body_a.quarantined || body_b.quarantined {
-            pair.forget();
-            return;
-        }
+        let Some([(a, _), (b, _)]) = self.sides(pair) else { return };
         let mut manifold = Manifold::EMPTY;
         let (pose_a, pose_b) = (&a.world_from_collider, &b.world_from_collider);
         let cache = &mut pair.search.cache;

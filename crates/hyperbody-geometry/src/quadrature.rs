@@ -36,19 +36,7 @@ const GAUSS_WEIGHTS: [f64; 4] =
 /// better rule, which counts, is smaller by the factor that 15 points gain over 7, several orders of magnitude for an
 /// analytic function.
 pub(crate) fn integrate(tolerance: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
-    let mut sum = 0.0;
-    let mut intervals = vec![(0.5, 0.5, 0)];
-    while let Some((centre, half_width, depth)) = intervals.pop() {
-        let (gauss, kronrod) = both_rules(&mut f, centre, half_width);
-        if (gauss - kronrod).abs() <= tolerance || depth >= MAX_DEPTH {
-            sum += kronrod;
-        } else {
-            let quarter = 0.5 * half_width;
-            intervals.push((centre - quarter, quarter, depth + 1));
-            intervals.push((centre + quarter, quarter, depth + 1));
-        }
-    }
-    sum
+    in_halves(tolerance, usize::MAX, &mut f)
 }
 
 /// Intervals looked at by [`integrate_between`] at most: an integrand that is noisier than the tolerance ends there.
@@ -66,11 +54,16 @@ pub(crate) fn integrate_between(low: f64, high: f64, tolerance: f64, mut f: impl
         let (sin, cos) = scalar::sin_cos(PI * s);
         f(low + 0.5 * width * (1.0 - cos)) * (0.5 * PI * width * sin)
     };
+    in_halves(tolerance, MAX_INTERVALS, &mut g)
+}
+
+/// ∫ f over [0, 1] by halving intervals, `most` of them at most.
+fn in_halves(tolerance: f64, most: usize, f: &mut impl FnMut(f64) -> f64) -> f64 {
     let mut sum = 0.0;
     let mut intervals = vec![(0.5, 0.5, 0)];
-    for _ in 0..MAX_INTERVALS {
+    for _ in 0..most {
         let Some((centre, half_width, depth)) = intervals.pop() else { break };
-        let (gauss, kronrod) = both_rules(&mut g, centre, half_width);
+        let (gauss, kronrod) = both_rules(f, centre, half_width);
         if (gauss - kronrod).abs() <= tolerance || depth >= MAX_DEPTH {
             sum += kronrod;
         } else {
@@ -80,7 +73,7 @@ pub(crate) fn integrate_between(low: f64, high: f64, tolerance: f64, mut f: impl
         }
     }
     // What the bound has left, by the coarse rule.
-    intervals.into_iter().fold(sum, |sum, (centre, half_width, _)| sum + both_rules(&mut g, centre, half_width).1)
+    intervals.into_iter().fold(sum, |sum, (centre, half_width, _)| sum + both_rules(f, centre, half_width).1)
 }
 
 fn both_rules(f: &mut impl FnMut(f64) -> f64, centre: f64, half_width: f64) -> (f64, f64) {

@@ -53,6 +53,24 @@ pub(crate) struct SolverBody<const N: usize> {
 }
 
 impl<const N: usize> SolverBody<N> {
+    /// A body at rest at the origin with moments of 1 kg·m², for tests.
+    #[cfg(test)]
+    pub(crate) fn with_unit_moments(inverse_sqrt_mass: f64) -> Self {
+        Self {
+            slot: 0,
+            inverse_sqrt_mass,
+            frame: None,
+            inverse_sqrt_moments: [1.0; MAX_PLANES],
+            added_moment: 0.0,
+            centre: Vector::ZERO,
+            velocity: Vector::ZERO,
+            angular_velocity: Bivector::ZERO,
+            acceleration: Vector::ZERO,
+            angular_acceleration: Bivector::ZERO,
+            surface: Vector::ZERO,
+        }
+    }
+
     /// A body that no impulse moves.
     pub(crate) fn immovable(body: &Body<N>) -> Self {
         Self {

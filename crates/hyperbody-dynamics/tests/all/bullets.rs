@@ -6,20 +6,7 @@ use hyperbody_dynamics::{BodyDef, BodyHandle, BodyKind, Groups, World};
 use hyperbody_geometry::{Polytope, Shape, regular};
 use hyperbody_math::{Bivector, Pose, Vector};
 
-use crate::common::{GRAVITY, Random, add_floor, ball, cuboid, down, material, run, world};
-
-macro_rules! in_all_dimensions {
-    ($($name:ident: $check:ident;)*) => { $(
-        #[test]
-        fn $name() {
-            $check::<2>();
-            $check::<3>();
-            $check::<4>();
-            $check::<5>();
-            $check::<6>();
-        }
-    )* };
-}
+use crate::common::{GRAVITY, Random, add_floor, ball, cuboid, down, in_all_dimensions, material, run, world};
 
 in_all_dimensions! {
     a_thousand_boxes_at_500_metres_a_second_are_stopped_by_a_centimetre: check_boxes;

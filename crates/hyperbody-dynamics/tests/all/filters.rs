@@ -6,20 +6,7 @@ use hyperbody_dynamics::{
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Pose, Rotation, Vector};
 
-use crate::common::{GRAVITY, add_floor, assert_close, ball, cuboid, down, material, run, world};
-
-macro_rules! in_all_dimensions {
-    ($($name:ident: $check:ident;)*) => { $(
-        #[test]
-        fn $name() {
-            $check::<2>();
-            $check::<3>();
-            $check::<4>();
-            $check::<5>();
-            $check::<6>();
-        }
-    )* };
-}
+use crate::common::{GRAVITY, add_floor, assert_close, ball, cuboid, down, in_all_dimensions, material, run, world};
 
 in_all_dimensions! {
     bodies_meet_by_groups_and_masks: check_groups;

@@ -4,20 +4,7 @@ use hyperbody_dynamics::{BodyDef, CombineRule, Material, World};
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Vector};
 
-use crate::common::{GRAVITY, add_floor, assert_close, ball, cuboid, down, world};
-
-macro_rules! in_all_dimensions {
-    ($($name:ident: $check:ident;)*) => { $(
-        #[test]
-        fn $name() {
-            $check::<2>();
-            $check::<3>();
-            $check::<4>();
-            $check::<5>();
-            $check::<6>();
-        }
-    )* };
-}
+use crate::common::{GRAVITY, add_floor, assert_close, ball, cuboid, down, in_all_dimensions, world};
 
 in_all_dimensions! {
     the_rule_named_later_in_the_list_wins: check_rules;

@@ -6,20 +6,7 @@ use hyperbody_dynamics::{BodyDef, BodyHandle, World};
 use hyperbody_geometry::{Polytope, Shape};
 use hyperbody_math::{Pose, Rotation, Vector};
 
-use crate::common::{ball, cuboid, down, material, world};
-
-macro_rules! in_all_dimensions {
-    ($($name:ident: $check:ident;)*) => { $(
-        #[test]
-        fn $name() {
-            $check::<2>();
-            $check::<3>();
-            $check::<4>();
-            $check::<5>();
-            $check::<6>();
-        }
-    )* };
-}
+use crate::common::{ball, cuboid, down, in_all_dimensions, material, world};
 
 in_all_dimensions! {
     slides_over_boxes_as_on_a_half_space: check_boxes;

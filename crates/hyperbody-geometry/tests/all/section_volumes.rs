@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::Random;
+use crate::common::{Random, slab_of_cube};
 use hyperbody_geometry::product::Factor;
 use hyperbody_geometry::regular::{Size, polytope};
 use hyperbody_geometry::{GeometryErrorKind, Polytope, Shape, SliceFrame, Solid, volume};
@@ -191,18 +191,6 @@ fn sections_of_products_add_up_to_the_volume() {
     adds_up("cylinder", &cylinder, &mut random);
     let five = Shape::<5>::product(vec![ball([0, 1], 0.6), ball([2, 3], 0.5), segment(4, 0.4)]).unwrap();
     adds_up("two discs and a segment", &five, &mut random);
-}
-
-/// vol{x in [0, 1]^N : a·x = c} for unit a > 0, as the (N−1)-th difference of a truncated power (G. Pólya, 1913).
-fn slab_of_cube<const N: usize>(a: Vector<N>, c: f64) -> f64 {
-    let mut sum = 0.0;
-    for corner in 0..1_u32 << N {
-        let reach: f64 = (0..N).filter(|axis| corner >> axis & 1 == 1).map(|axis| a[axis]).sum();
-        let sign = if corner.count_ones() % 2 == 0 { 1.0 } else { -1.0 };
-        sum += sign * f64::max(c - reach, 0.0).powi(N as i32 - 1);
-    }
-    let factorial: f64 = (1..N).map(|k| k as f64).product();
-    sum / (factorial * a.iter().product::<f64>())
 }
 
 /// Three ways to the same volume: B-splines, the cut by combinatorics, and for cubes the closed form.

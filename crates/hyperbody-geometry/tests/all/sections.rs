@@ -1,6 +1,6 @@
 //! Sections of polytopes: known faces, closed forms, volumes that add up, and hyperplanes in every special position.
 
-use crate::common::{Random, cube};
+use crate::common::{Random, cube, slab_of_cube};
 use hyperbody_geometry::regular::{Size, polytope};
 use hyperbody_geometry::{MassProperties, Polytope, SectionPolytope, SectionScratch, SliceFrame, hull};
 use hyperbody_math::{Pose, Vector};
@@ -67,18 +67,6 @@ fn sections_of_regular_polytopes_have_their_known_faces() {
     assert_eq!(counts("600-cell", w, 0.0), [42, 120, 80]);
     assert_eq!(counts("600-cell", w, 0.9), [12, 30, 20]);
     assert_eq!(counts("5-cell", [0.0, 1.0, 0.0, 0.0], 0.2), [4, 6, 4]);
-}
-
-/// vol{x in [0, 1]^N : a·x = c} for unit a > 0, as the (N−1)-th difference of a truncated power (G. Pólya, 1913).
-fn slab_of_cube<const N: usize>(a: Vector<N>, c: f64) -> f64 {
-    let mut sum = 0.0;
-    for corner in 0..1_u32 << N {
-        let reach: f64 = (0..N).filter(|axis| corner >> axis & 1 == 1).map(|axis| a[axis]).sum();
-        let sign = if corner.count_ones() % 2 == 0 { 1.0 } else { -1.0 };
-        sum += sign * f64::max(c - reach, 0.0).powi(N as i32 - 1);
-    }
-    let factorial: f64 = (1..N).map(|k| k as f64).product();
-    sum / (factorial * a.iter().product::<f64>())
 }
 
 fn cubes<const N: usize, const M: usize>() {

@@ -20,7 +20,8 @@ pub(super) struct Link {
     pub(super) apart: bool,
     /// Whether some of its rows have a range: limits, motors, springs.
     pub(super) bounded: bool,
-    /// Rows of the solver's bodies; 0 for what impulses do not move.
+    /// Places of its bodies, counted from 1; 0 for what impulses do not move. Places are counted by joints, so that bodies which have none
+    /// change nothing here.
     pub(super) bodies: [u32; 2],
     pub(super) rows: u32,
 }
@@ -68,6 +69,7 @@ pub(super) struct Coupling {
     pub(super) offset: u32,
     pub(super) later: u32,
     pub(super) earlier: u32,
+    /// Place of the shared body, counted from 1.
     pub(super) body: u32,
     /// Whether the shared body is the second of the later and of the earlier joint.
     pub(super) second: [bool; 2],

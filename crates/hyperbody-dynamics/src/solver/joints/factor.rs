@@ -4,6 +4,7 @@
 //! the later ones, of which there are many. Its place takes A K⁻¹ when the joint is eliminated.
 
 use super::cluster::{Cluster, Node, Plan};
+use super::place::Place;
 use super::{JointRows, Row, block};
 use crate::solver::bodies::SolverBody;
 
@@ -12,6 +13,7 @@ pub(super) struct Parts<'a, const N: usize> {
     pub(super) joints: &'a [JointRows<N>],
     pub(super) rows: &'a [Row<N>],
     pub(super) own: &'a [f64],
+    pub(super) places: &'a [Place<N>],
     pub(super) bodies: &'a [SolverBody<N>],
 }
 
@@ -95,7 +97,7 @@ fn assemble<const N: usize>(plan: &Plan, cluster: &Cluster, parts: &Parts<'_, N>
         }
     }
     for coupling in &plan.couplings[cluster.couplings.start as usize..cluster.couplings.end as usize] {
-        let body = &parts.bodies[coupling.body as usize];
+        let body = &parts.bodies[parts.places[coupling.body as usize - 1].row];
         let inverse_mass = body.inverse_sqrt_mass * body.inverse_sqrt_mass;
         let of = |node: u32| {
             let joint = &parts.joints[plan.nodes[node as usize].joint as usize];
@@ -173,7 +175,6 @@ mod tests {
 
     use super::*;
     use crate::joint::{Coordinate, Role, RowSpec};
-    use crate::solver::bodies::MAX_PLANES;
     use crate::solver::joints::cluster::Link;
     use crate::solver::joints::geometry::response;
     use crate::solver::softness::Softness;
@@ -184,22 +185,6 @@ mod tests {
     fn random(seed: &mut u64) -> f64 {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 40) as f64 / f64::from(1 << 24) - 0.5
-    }
-
-    fn body(mass: f64) -> SolverBody<N> {
-        SolverBody {
-            slot: 0,
-            inverse_sqrt_mass: mass,
-            frame: None,
-            inverse_sqrt_moments: [1.0; MAX_PLANES],
-            added_moment: 0.0,
-            centre: Vector::ZERO,
-            velocity: Vector::ZERO,
-            angular_velocity: Bivector::ZERO,
-            acceleration: Vector::ZERO,
-            angular_acceleration: Bivector::ZERO,
-            surface: Vector::ZERO,
-        }
     }
 
     /// What two rows of two joints have to do with each other, body by body.
@@ -232,7 +217,10 @@ mod tests {
         ];
         let mut seed = 11;
         for shape in shapes {
-            let bodies: Vec<_> = (0..9).map(|k| body(if k == 0 { 0.0 } else { 1.0 + random(&mut seed) })).collect();
+            let bodies: Vec<_> = (0..9)
+                .map(|k| SolverBody::with_unit_moments(if k == 0 { 0.0 } else { 1.0 + random(&mut seed) }))
+                .collect();
+            let places: Vec<_> = (0..9).map(|k| Place::<N>::new(k, None, Vector::ZERO)).collect();
             let (mut joints, mut rows, mut links) = (Vec::new(), Vec::new(), Vec::new());
             for (index, &(a, b)) in shape.iter().enumerate() {
                 let first = rows.len();
@@ -269,11 +257,11 @@ mod tests {
                     axes: Matrix::IDENTITY,
                 });
                 let size = (rows.len() - first) as u32;
-                let bodies = [a as u32, b as u32];
+                let bodies = [a, b].map(|body| if body == 0 { 0 } else { body as u32 + 1 });
                 links.push(Link { joint: index as u32, apart: false, bounded: false, bodies, rows: size });
             }
             let mut plan = Plan::default();
-            plan.update(&links, bodies.len(), 1e7);
+            plan.update(&links, bodies.len() + 1, 1e7);
             assert_eq!(plan.clusters.iter().map(|cluster| cluster.unknowns as usize).sum::<usize>(), rows.len());
             assert!(plan.clusters.iter().all(|cluster| cluster.whole));
             let mut own = Vec::new();
@@ -285,7 +273,7 @@ mod tests {
                     }
                 }
             }
-            let parts = Parts { joints: &joints, rows: &rows, own: &own, bodies: &bodies };
+            let parts = Parts { joints: &joints, rows: &rows, own: &own, places: &places, bodies: &bodies };
             let mut values = vec![f64::NAN; plan.values as usize];
             let mut solution = vec![0.0; rows.len()];
             let right: Vec<f64> = (0..rows.len()).map(|_| random(&mut seed)).collect();

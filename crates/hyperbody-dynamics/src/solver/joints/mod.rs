@@ -184,7 +184,7 @@ impl<const N: usize> Joints<N> {
         }
         self.own.clear();
         self.own.resize(own, 0.0);
-        self.plan.update(&self.links, bodies.len(), input.tuning.joint_budget);
+        self.plan.update(&self.links, self.places.len() + 1, input.tuning.joint_budget);
         self.factors.resize(self.plan.values as usize, 0.0);
         for cluster in &self.plan.clusters {
             for node in self.plan.nodes_of(cluster) {
@@ -198,7 +198,7 @@ impl<const N: usize> Joints<N> {
     #[expect(clippy::cast_possible_truncation, reason = "joints and bodies are counted in u32")]
     fn link(&mut self, joint: &Joint<N>, places: [usize; 2], bodies: &[SolverBody<N>]) {
         let moving = |place: usize| match self.places[place].row {
-            row if bodies[row].inverse_sqrt_mass > 0.0 => row as u32,
+            row if bodies[row].inverse_sqrt_mass > 0.0 => place as u32 + 1,
             _ => 0,
         };
         self.links.push(Link {

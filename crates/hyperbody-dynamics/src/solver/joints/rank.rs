@@ -5,7 +5,7 @@ use hyperbody_math::{Bivector, Matrix, Pose, Rotation, Vector, planes};
 use super::place::Place;
 use super::{JointRows, Row};
 use crate::joint::{Joint, JointDef};
-use crate::solver::bodies::{MAX_PLANES, SolverBody};
+use crate::solver::bodies::SolverBody;
 use crate::solver::softness::Softness;
 use crate::{BodyHandle, joint::WORLD};
 
@@ -37,19 +37,7 @@ fn rank(mut rows: Vec<Vec<f64>>) -> usize {
 /// Free translations and turns: N less the rank of the held rows, as seen by the translations and turns of b about its anchor.
 fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize) {
     let joint = Joint::new(def.clone(), def.groups().expect("closed"), (WORLD, Vector::ZERO), (0, Vector::ZERO));
-    let body = SolverBody {
-        slot: 0,
-        inverse_sqrt_mass: 1.0,
-        frame: None,
-        inverse_sqrt_moments: [1.0; MAX_PLANES],
-        added_moment: 0.0,
-        centre: Vector::ZERO,
-        velocity: Vector::ZERO,
-        angular_velocity: Bivector::ZERO,
-        acceleration: Vector::ZERO,
-        angular_acceleration: Bivector::ZERO,
-        surface: Vector::ZERO,
-    };
+    let body = SolverBody::with_unit_moments(1.0);
     let world = SolverBody { inverse_sqrt_mass: 0.0, ..body };
     let (a, b) = (Place::new(0, None, Vector::ZERO), Place::new(1, None, Vector::ZERO));
     let mut rows: Vec<Row<N>> = joint.rows.iter().map(|&spec| Row::new(spec, [0.0; 2])).collect();

@@ -57,8 +57,8 @@ impl<const N: usize> Joints<N> {
     }
 
     fn factorize(&mut self, cluster: usize, moving: &Moving<'_, N>) {
-        let (joints, rows, own) = (&self.joints, &self.rows, &self.own);
-        let parts = Parts { joints, rows, own, bodies: moving.bodies };
+        let (joints, rows, own, places) = (&self.joints, &self.rows, &self.own, &self.places);
+        let parts = Parts { joints, rows, own, places, bodies: moving.bodies };
         let cluster = &self.plan.clusters[cluster];
         factor::factorize(&self.plan, cluster, &parts, &mut self.factors, &mut self.scratch);
     }

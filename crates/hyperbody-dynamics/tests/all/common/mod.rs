@@ -5,6 +5,21 @@ use hyperbody_dynamics::{BodyDef, BodyHandle, Material, World, WorldDef};
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Matrix, Rotation, Vector};
 
+/// Tests of checks that are written once for every dimension.
+macro_rules! in_all_dimensions {
+    ($($name:ident: $check:ident;)*) => { $(
+        #[test]
+        fn $name() {
+            $check::<2>();
+            $check::<3>();
+            $check::<4>();
+            $check::<5>();
+            $check::<6>();
+        }
+    )* };
+}
+pub(crate) use in_all_dimensions;
+
 pub const GRAVITY: f64 = 9.81;
 
 /// A small generator with a fixed algorithm (SplitMix64, S. Vigna, 2015): the same scenes for ever.

@@ -82,3 +82,15 @@ pub fn cube<const N: usize>() -> Vec<Vector<N>> {
 pub fn cross_polytope<const N: usize>() -> Vec<Vector<N>> {
     (0..2 * N).map(|i| Vector::unit(i / 2) * if i % 2 == 0 { 1.0 } else { -1.0 }).collect()
 }
+
+/// vol{x in [0, 1]^N : a·x = c} for unit a > 0, as the (N−1)-th difference of a truncated power (G. Pólya, 1913).
+pub fn slab_of_cube<const N: usize>(a: Vector<N>, c: f64) -> f64 {
+    let mut sum = 0.0;
+    for corner in 0..1_u32 << N {
+        let reach: f64 = (0..N).filter(|axis| corner >> axis & 1 == 1).map(|axis| a[axis]).sum();
+        let sign = if corner.count_ones() % 2 == 0 { 1.0 } else { -1.0 };
+        sum += sign * f64::max(c - reach, 0.0).powi(N as i32 - 1);
+    }
+    let factorial: f64 = (1..N).map(|k| k as f64).product();
+    sum / (factorial * a.iter().product::<f64>())
+}
