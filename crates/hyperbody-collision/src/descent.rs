@@ -23,19 +23,8 @@ pub(crate) fn descend<const N: usize>(
     let mut points = difference.vertices(difference.support(normal).key);
     for turn in 1..=limits::MAX_DESCENT_TURNS {
         *turns = turn.max(*turns);
-        let freed = Pose {
-            translation: difference.a_from_b.translation + normal * depth,
-            rotation: difference.a_from_b.rotation,
-        };
-        let touching = Difference { a_from_b: &freed, ..*difference };
-        let proximity = gjk::closest(&touching, &Seeds::default(), normal, f64::INFINITY, &mut 0);
-        let (simplex, toward_b) = match proximity {
-            Proximity::Overlap(simplex) => (simplex, None),
-            Proximity::Near(near) => (near.simplex, Some(near.normal)),
-            Proximity::Apart { .. } => break,
-        };
-        let [on_a, on_b] = simplex.witnesses(&touching);
-        points = [on_a, on_b - normal * depth];
+        let Some((touching, toward_b)) = moved_apart(difference, normal, depth) else { break };
+        points = touching;
         let Some(better) = toward_b else { break };
         let shallower = difference.reach(better);
         if shallower >= depth - limits::EPA_GAP * difference.scale {
@@ -46,4 +35,34 @@ pub(crate) fn descend<const N: usize>(
     let middle = (points[0] + points[1]) * 0.5;
     let half = normal * (0.5 * depth);
     Witness { normal, on_a: middle + half, on_b: middle - half, separation: -depth }
+}
+
+/// Where A and B touch once B has moved by `depth` along the unit `normal`, which frees it: the points in a's frame before
+/// that move.
+pub(crate) fn touching_points<const N: usize>(
+    difference: &Difference<'_, N>,
+    normal: Vector<N>,
+    depth: f64,
+) -> [Vector<N>; 2] {
+    moved_apart(difference, normal, depth)
+        .map_or_else(|| difference.vertices(difference.support(normal).key), |(points, _)| points)
+}
+
+/// The closest points of A and B moved by `depth` along `normal`, before that move, and the direction between them after it
+/// unless they touch.
+fn moved_apart<const N: usize>(
+    difference: &Difference<'_, N>,
+    normal: Vector<N>,
+    depth: f64,
+) -> Option<([Vector<N>; 2], Option<Vector<N>>)> {
+    let freed =
+        Pose { translation: difference.a_from_b.translation + normal * depth, rotation: difference.a_from_b.rotation };
+    let moved = Difference { a_from_b: &freed, ..*difference };
+    let (simplex, toward_b) = match gjk::closest(&moved, &Seeds::default(), normal, f64::INFINITY, &mut 0) {
+        Proximity::Overlap(simplex) => (simplex, None),
+        Proximity::Near(near) => (near.simplex, Some(near.normal)),
+        Proximity::Apart { .. } => return None,
+    };
+    let [on_a, on_b] = simplex.witnesses(&moved);
+    Some(([on_a, on_b - normal * depth], toward_b))
 }

@@ -11,9 +11,10 @@ use crate::manifold::{ContactPoint, Manifold, max_points};
 use crate::narrow::{PairCache, Scratch};
 use crate::overlap::{self, WayOut};
 use crate::pair::Pair;
+use crate::patch::{self, Along};
 use crate::round::Witness;
 use crate::simplex::Simplex;
-use crate::{epa, limits, patch};
+use crate::{descent, epa, limits};
 
 /// Contacts of a pair about which nothing is known but what the cache holds.
 pub(crate) fn collide<const N: usize>(
@@ -82,7 +83,7 @@ fn near<const N: usize>(
     let witness = Witness { normal: closest.normal, on_a, on_b, separation: closest.distance };
     let flat = !matches!((&pair.a.core, &pair.b.core), (Core::Point, _) | (_, Core::Point));
     let shown = if flat { build(pair, difference, closest.normal, cache, scratch, out) } else { None };
-    complete(pair, difference, &witness, shown, scratch, out);
+    complete(pair, difference, &witness, shown, cache, scratch, out);
 }
 
 /// An overlap that is shallow or was one in the previous step: the best facet normal, or the facet of D that won then,
@@ -159,7 +160,7 @@ fn deep<const N: usize>(
     cache.seeds = found.facet.map_or_else(Seeds::default, |vertices| Seeds::of(&vertices));
     let witness = deepest(difference, &found);
     let shown = build(pair, difference, found.normal, cache, scratch, out);
-    complete(pair, difference, &witness, shown, scratch, out);
+    complete(pair, difference, &witness, shown, cache, scratch, out);
 }
 
 /// The best facet normal of the two, or for boxes the best separating axis of any kind.
@@ -191,24 +192,29 @@ pub(crate) fn penetrate<const N: usize>(
     found
 }
 
-/// Where the cores are deepest along a way out: the foot of the origin on the facet of D, or else the middle between
-/// the farthest vertices.
+/// Where the cores are deepest along a way out: the foot of the origin on the facet of D, or else where the cores touch
+/// once they have gone that way.
 pub(crate) fn deepest<const N: usize>(difference: &Difference<'_, N>, way: &Penetration<N>) -> Witness<N> {
     if let Some([on_a, on_b]) = way.points {
         return Witness { normal: way.normal, on_a, on_b, separation: -way.depth };
     }
-    let foot = way.facet.and_then(|vertices| Simplex::foot_on(&vertices));
-    let [on_a, on_b] = match foot {
-        Some(foot) => foot.clamped().witnesses(difference),
-        None => difference.vertices(difference.support(way.normal).key),
+    let across = way.normal * way.depth;
+    let found =
+        way.facet.and_then(|vertices| Simplex::foot_on(&vertices)).map(|foot| foot.clamped().witnesses(difference));
+    // A facet of D may come in slivers none of which holds the foot.
+    let opposite = |&[on_a, on_b]: &[Vector<N>; 2]| {
+        (on_a - on_b - across).norm_sq()
+            <= (limits::TOUCHING * difference.scale) * (limits::TOUCHING * difference.scale)
     };
+    let [on_a, on_b] =
+        found.filter(opposite).unwrap_or_else(|| descent::touching_points(difference, way.normal, way.depth));
     // Midway, and apart along the normal by the depth.
     let middle = (on_a + on_b) * 0.5;
-    let half = way.normal * (0.5 * way.depth);
+    let half = across * 0.5;
     Witness { normal: way.normal, on_a: middle + half, on_b: middle - half, separation: -way.depth }
 }
 
-/// Fills `out` with the patch along a normal; see [`patch::build`].
+/// Fills `out` with the patch along a normal, or a facet's all but equal to it; see [`patch::build`].
 pub(crate) fn build<const N: usize>(
     pair: &Pair<'_, N>,
     difference: &Difference<'_, N>,
@@ -217,10 +223,21 @@ pub(crate) fn build<const N: usize>(
     scratch: &mut Scratch<N>,
     out: &mut Manifold<N>,
 ) -> Option<f64> {
+    build_along(pair, difference, Along::Nearly(normal), cache, scratch, out)
+}
+
+fn build_along<const N: usize>(
+    pair: &Pair<'_, N>,
+    difference: &Difference<'_, N>,
+    along: Along<N>,
+    cache: &mut PairCache<N>,
+    scratch: &mut Scratch<N>,
+    out: &mut Manifold<N>,
+) -> Option<f64> {
     let (a, b) = pair.sides();
     out.clear();
     let memory = &mut cache.patch;
-    patch::build(&a, &b, difference.a_from_b, normal, pair.margin, memory, &mut scratch.patch, out)
+    patch::build(&a, &b, difference.a_from_b, along, pair.margin, memory, &mut scratch.patch, out)
 }
 
 /// How much farther apart (or less deep) than `separation` a patch may be and still show the contact.
@@ -234,6 +251,7 @@ fn complete<const N: usize>(
     difference: &Difference<'_, N>,
     witness: &Witness<N>,
     shown: Option<f64>,
+    cache: &mut PairCache<N>,
     scratch: &mut Scratch<N>,
     out: &mut Manifold<N>,
 ) {
@@ -245,6 +263,10 @@ fn complete<const N: usize>(
     pair.push(&witness.transformed(pair.world_from_a), WITNESS_ID, &mut alone);
     let Some(&point) = alone.points().first() else { return };
     scratch.effort.witness_points += 1;
+    // A patch along a facet's normal would not be in the shapes along the witness's.
+    if !out.is_empty() && out.normal != alone.normal {
+        build_along(pair, difference, Along::Exactly(witness.normal), cache, scratch, out);
+    }
     out.normal = alone.normal;
     put_first(point, out);
 }

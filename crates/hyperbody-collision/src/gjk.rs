@@ -5,8 +5,8 @@
 //! all of D (x·s = x·x), or joins the simplex and brings it closer. x·s / |x| is a lower bound on the distance at any
 //! time and the direction −x/|x| a certificate of it.
 //!
-//! The loop ends: every turn strictly shortens x, a simplex determines its x, and D has finitely many vertices, so no
-//! simplex comes back. [`limits::MAX_GJK_TURNS`] bounds it far below that; what is known then is returned.
+//! The loop ends: every turn but at most N strictly shortens x, a simplex determines its x, and D has finitely many
+//! vertices, so no simplex comes back for ever. [`limits::MAX_GJK_TURNS`] bounds it far below that; what is known then is returned.
 
 use hyperbody_math::Vector;
 
@@ -67,29 +67,45 @@ pub(crate) fn closest<const N: usize>(
 ) -> Proximity<N> {
     let mut simplex = start(difference, seeds, toward_b);
     let touching = limits::TOUCHING * difference.scale;
+    // Of simplices equally close to rounding, the one whose normal certifies most.
+    let mut certified: Option<(f64, Simplex<N>)> = None;
+    let mut stalls = 0;
     for _ in 0..limits::MAX_GJK_TURNS {
-        let x = simplex.nearest;
-        let distance = x.norm();
+        let distance = simplex.nearest.norm();
         if simplex.is_full() || distance <= touching {
             return Proximity::Overlap(simplex);
         }
-        let normal = x * (-1.0 / distance);
+        let normal = simplex.nearest * (-1.0 / distance);
         *turns += 1;
         let vertex = difference.support(normal);
         let at_least = -vertex.point.dot(normal);
         if at_least > stop_above {
             return Proximity::Apart { normal };
         }
-        let tolerance = limits::GJK_RELATIVE_GAP * distance + limits::GJK_ABSOLUTE_GAP * difference.scale;
-        let closer =
-            if distance - at_least <= tolerance || simplex.holds(vertex.key) { None } else { simplex.with(vertex) };
-        match closer {
-            Some(closer) => simplex = closer,
-            None => return Proximity::Near(Closest { normal, distance, simplex }),
+        if certified.as_ref().is_some_and(|(most, _)| at_least > *most) {
+            certified = Some((at_least, simplex));
         }
+        let gap = distance - at_least;
+        let tolerance = limits::GJK_RELATIVE_GAP * distance + limits::GJK_ABSOLUTE_GAP * difference.scale;
+        if gap <= tolerance || simplex.holds(vertex.key) {
+            break;
+        }
+        let Some(next) = simplex.with(vertex) else { break };
+        // Turning by a small angle brings x closer by its square, which rounding may eat, while the bound gains by the
+        // angle itself. That is how small shapes lie against large ones.
+        if next.nearest.norm_sq() >= simplex.nearest.norm_sq() {
+            stalls += 1;
+            if stalls > N || gap <= limits::GJK_STALL_GAP * difference.scale {
+                break;
+            }
+            certified = certified.or(Some((at_least, simplex)));
+        }
+        simplex = next;
     }
+    let simplex = certified.map_or(simplex, |(_, simplex)| simplex);
     let distance = simplex.nearest.norm();
-    Proximity::Near(Closest { normal: simplex.nearest * (-1.0 / distance.max(f64::MIN_POSITIVE)), distance, simplex })
+    let normal = simplex.nearest * (-1.0 / distance.max(f64::MIN_POSITIVE));
+    Proximity::Near(Closest { normal, distance, simplex })
 }
 
 /// The simplex of the seeds if it is a valid start, or else one vertex.

@@ -19,9 +19,10 @@ pub const FACET_PREFERENCE_ABSOLUTE: f64 = 1e-3;
 /// How much better, in the same unit, an axis has to be than the one that won in the previous step.
 pub const HYSTERESIS: f64 = 5e-4;
 
-/// A direction whose cosine with a facet's normal falls short of one by no more than this *is* that normal: an angle
-/// of 1e-6, which moves no point of a shape by more than a millionth of its size.
-pub const SNAP_COSINE_DEFECT: f64 = 5e-13;
+/// A direction this close to a facet's normal (an angle of 1e-6, squared) *is* that normal, which moves no point of the
+/// other shape by more than a millionth of its size. Where the other shape is the larger one the angle is smaller by as
+/// much, so that it is a millionth of the smaller shape's size.
+pub const SNAP_ANGLE_SQ: f64 = 1e-12;
 
 /// How much better aligned with the normal b's facet has to be than a's to serve as the reference, so that the choice
 /// does not flicker between two parallel facets.
@@ -62,6 +63,10 @@ pub const GJK_RELATIVE_GAP: f64 = 1e-14;
 
 /// The absolute part of the same, in parts of the shapes' size: a few roundings of a vertex.
 pub const GJK_ABSOLUTE_GAP: f64 = 1e-15;
+
+/// Gap between the same bounds, in parts of the shapes' size, above which the search turns on, up to as many times as
+/// there are dimensions, though rounding hides that it comes closer: a thousand roundings of a vertex.
+pub const GJK_STALL_GAP: f64 = 1e-12;
 
 /// How much less than the distance of two cores, in parts of their size, the direction between their closest points may
 /// certify before a better one is looked for.

@@ -88,20 +88,29 @@ impl<'a, const N: usize> Side<'a, N> {
     }
 }
 
-/// Fills `out` with the patch of two cores along the unit `normal` (in a's frame, from a to b), leaving out points
-/// farther apart than `margin`. Returns the least core separation over the patch, or `None` if the projections of the
+/// The direction to build a patch along: unit, in a's frame, from a to b.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Along<const N: usize> {
+    /// Or along the normal of the reference facet, if that is the same to [`limits::SNAP_ANGLE_SQ`].
+    Nearly(Vector<N>),
+    Exactly(Vector<N>),
+}
+
+/// Fills `out` with the patch of two cores along a normal, leaving out points farther apart than `margin`. Returns the least core separation over the patch, or `None` if the projections of the
 /// facets do not meet or no core has facets.
 #[expect(clippy::too_many_arguments, reason = "two sides, how they lie, and the memory of three lifetimes")]
 pub(crate) fn build<const N: usize>(
     a: &Side<'_, N>,
     b: &Side<'_, N>,
     a_from_b: &Pose<N>,
-    normal: Vector<N>,
+    along: Along<N>,
     margin: f64,
     memory: &mut PatchMemory,
     scratch: &mut PatchScratch<N>,
     out: &mut Manifold<N>,
 ) -> Option<f64> {
+    let (Along::Nearly(normal) | Along::Exactly(normal)) = along;
+    let exact = matches!(along, Along::Exactly(_));
     let facet_a = a.faces.facet_toward(normal, memory.facets[0]);
     let facet_b = b.faces.facet_toward(-a_from_b.rotation.inverse_rotate(normal), memory.facets[1]);
     memory.facets = [facet_a, facet_b].map(|facet| facet.map_or(NO_FACET, |(facet, _)| facet as u32));
@@ -123,6 +132,7 @@ pub(crate) fn build<const N: usize>(
             facet: facet_b?.0,
             incident_facet: incident_facet(facet_a),
             reference_parity: 1,
+            exact,
             margin,
         }
     } else {
@@ -134,6 +144,7 @@ pub(crate) fn build<const N: usize>(
             facet: facet_a?.0,
             incident_facet: incident_facet(facet_b),
             reference_parity: 0,
+            exact,
             margin,
         }
     };
@@ -169,6 +180,8 @@ struct Plan<'a, const N: usize> {
     incident_facet: usize,
     /// 0 if the reference is shape a, 1 if it is b.
     reference_parity: u32,
+    /// Whether the normal is to be kept to the bit.
+    exact: bool,
     margin: f64,
 }
 
@@ -176,8 +189,10 @@ impl<const N: usize> Plan<'_, N> {
     /// The normal, or the reference facet's where they are the same to rounding; and the cosine between them.
     fn snapped_normal(&self) -> (Vector<N>, f64) {
         let (facet_normal, _) = self.reference.faces.plane(self.facet);
-        let cosine = facet_normal.dot(self.normal);
-        if cosine >= 1.0 - limits::SNAP_COSINE_DEFECT { (facet_normal, 1.0) } else { (self.normal, cosine) }
+        // The reference facet is the end of its shape along its own normal: only the incident shape swings.
+        let swing = (self.incident.extent / self.reference.extent).max(1.0);
+        let same = (facet_normal - self.normal).norm_sq() * (swing * swing) <= limits::SNAP_ANGLE_SQ;
+        if same && !self.exact { (facet_normal, 1.0) } else { (self.normal, facet_normal.dot(self.normal)) }
     }
 
     /// Clips and leaves the candidates in the reducer. The least core separation, or `None` if nothing is left.

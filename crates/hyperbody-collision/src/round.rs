@@ -122,8 +122,19 @@ pub(crate) fn segments<const N: usize>(a: &Segment<N>, b: &Segment<N>, wish: Vec
     s = a.closest(b.at(t));
     // A second turn removes what is left of rounding in the determinant.
     t = b.closest(a.at(s));
-    let witness = points(a.at(s), b.at(t), wish);
+    let mut witness = points(a.at(s), b.at(t), wish);
     let size = aa.sqrt() + bb.sqrt();
+    if determinant <= crate::limits::PARALLEL_SQ * aa * bb {
+        // All but parallel segments may still be closest at an end.
+        for end in [-1.0, 1.0] {
+            for (on_a, on_b) in [(a.at(end), b.at(b.closest(a.at(end)))), (a.at(a.closest(b.at(end))), b.at(end))] {
+                let at_end = points(on_a, on_b, wish);
+                if at_end.separation < witness.separation - CROSSING * size {
+                    witness = at_end;
+                }
+            }
+        }
+    }
     if witness.separation > CROSSING * size || size == 0.0 { witness } else { crossing(a, b, &witness, wish) }
 }
 
@@ -156,12 +167,16 @@ fn crossing<const N: usize>(a: &Segment<N>, b: &Segment<N>, witness: &Witness<N>
             consider(direction);
         }
     }
+    // Of segments so parallel that they span no plane, each has perpendiculars of its own.
+    let bases = if second_part == Vector::ZERO { [first, second] } else { [first; 2] };
     for axis in 0..=N {
         let trial = if axis == N { wish } else { Vector::unit(axis) };
-        let in_one = trial - first * first.dot(trial);
-        let rest = in_one - second_part * second_part.dot(in_one);
-        if rest.norm() > 1e-3 {
-            consider(rest.normalize_or_zero());
+        for base in bases {
+            let in_one = trial - base * base.dot(trial);
+            let rest = in_one - second_part * second_part.dot(in_one);
+            if rest.norm() > 1e-3 {
+                consider(rest.normalize_or_zero());
+            }
         }
     }
     let Some((normal, separation)) = best else { return *witness };

@@ -89,7 +89,7 @@ impl<const N: usize> Simplex<N> {
     }
 
     /// The simplex with one more vertex, reduced to the face that holds its point nearest to the origin. `None` if
-    /// the vertex does not bring the simplex closer, to rounding.
+    /// the vertex depends on the others, to rounding.
     pub(crate) fn with(&self, vertex: Vertex<N>) -> Option<Self> {
         if self.len > N {
             return None;
@@ -109,7 +109,7 @@ impl<const N: usize> Simplex<N> {
             }
             next.step_towards(&minimum.weights);
         }
-        (next.nearest.norm_sq() < self.nearest.norm_sq()).then_some(next)
+        Some(next)
     }
 
     /// Moves the weights towards the target until the first vanishes, and drops what has vanished.
@@ -140,7 +140,9 @@ impl<const N: usize> Simplex<N> {
     }
 
     /// Least squares for the point of the affine hull nearest to the origin, by modified Gram–Schmidt with the right
-    /// side carried along (Björck 1967: backward stable). `None` if the points are affinely dependent to rounding.
+    /// side carried along (Björck 1967: backward stable). Where little is left of a vector, rounding has left some of it
+    /// along the directions taken away: they are taken away twice, which is enough (Kahan, in Parlett 1980). Without that
+    /// the normal of a small shape that all but touches a large one would lean by the large one's rounding. `None` if the points are affinely dependent to rounding.
     fn affine_minimum(&self) -> Option<AffineMinimum<N>> {
         let base = self.vertices[0].point;
         let edges = self.len - 1;
@@ -156,6 +158,13 @@ impl<const N: usize> Simplex<N> {
                 r[i][k] = q[i].dot(column);
                 column -= q[i] * r[i][k];
             }
+            if column.norm_sq() < CANCELLED_SQ * length * length {
+                for i in 0..k {
+                    let left = q[i].dot(column);
+                    r[i][k] += left;
+                    column -= q[i] * left;
+                }
+            }
             r[k][k] = column.norm();
             if r[k][k] <= limits::DEPENDENT * length || r[k][k] == 0.0 {
                 return None;
@@ -163,6 +172,13 @@ impl<const N: usize> Simplex<N> {
             q[k] = column / r[k][k];
             projection[k] = -q[k].dot(rest);
             rest += q[k] * projection[k];
+        }
+        if rest.norm_sq() < CANCELLED_SQ * base.norm_sq() {
+            for k in 0..edges {
+                let left = -q[k].dot(rest);
+                projection[k] += left;
+                rest += q[k] * left;
+            }
         }
         let mut minimum = AffineMinimum { weights: [0.0; MAX_SIMPLEX], nearest: rest };
         let mut base_weight = 1.0;
@@ -181,3 +197,6 @@ impl<const N: usize> Simplex<N> {
 
 /// Weights up to this are zero but for rounding: the vertex is not needed.
 const SMALLEST_WEIGHT: f64 = 1e-14;
+
+/// Share of a vector's length, squared, below which what is left of it is taken to be orthogonal only after a second turn.
+const CANCELLED_SQ: f64 = 1e-6;

@@ -219,12 +219,16 @@ pub fn run<const N: usize>(plan: Plan) -> Report {
     let mut report = Report::default();
     let mut scratch = Scratch::default();
     for index in 0..plan.pairs {
-        let Pair { a, b, pose_a, pose_b, name, small, mut random } = draw::<N>(plan.seed, index, plan.spread);
-        let pair = Drawn { a: &a, b: &b, pose_a, pose_b, name, small, plan };
-        report.merge(&pair.check(&mut random, &mut scratch));
+        report.merge(&check_drawn::<N>(plan, index, &mut scratch));
     }
     report.effort = scratch.effort();
     report
+}
+
+/// Checks the pair of the given number.
+pub fn check_drawn<const N: usize>(plan: Plan, index: u64, scratch: &mut Scratch<N>) -> Report {
+    let Pair { a, b, pose_a, pose_b, name, small, mut random } = draw::<N>(plan.seed, index, plan.spread);
+    Drawn { a: &a, b: &b, pose_a, pose_b, name, small, plan }.check(&mut random, scratch)
 }
 
 /// Checks one pair that was not drawn, with all that is asked of drawn ones.
