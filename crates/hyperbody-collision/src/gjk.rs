@@ -90,7 +90,7 @@ pub(crate) fn closest<const N: usize>(
         if gap <= tolerance || simplex.holds(vertex.key) {
             break;
         }
-        let Some(next) = simplex.with(vertex) else { break };
+        let Some(mut next) = simplex.with(vertex) else { break };
         // Turning by a small angle brings x closer by its square, which rounding may eat, while the bound gains by the
         // angle itself. That is how small shapes lie against large ones.
         if next.nearest.norm_sq() >= simplex.nearest.norm_sq() {
@@ -99,6 +99,10 @@ pub(crate) fn closest<const N: usize>(
                 break;
             }
             certified = certified.or(Some((at_least, simplex)));
+            if !next.holds(vertex.key) {
+                let Some(joined) = simplex.joined(vertex) else { break };
+                next = joined;
+            }
         }
         simplex = next;
     }

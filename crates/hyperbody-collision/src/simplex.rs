@@ -112,6 +112,18 @@ impl<const N: usize> Simplex<N> {
         Some(next)
     }
 
+    /// The simplex with one more vertex whose weight is lost in rounding, for the direction that is orthogonal to them all.
+    /// `None` if one of the weights is negative by more than that, or the simplex would have full dimension.
+    pub(crate) fn joined(&self, vertex: Vertex<N>) -> Option<Self> {
+        if self.len >= N {
+            return None;
+        }
+        let mut vertices = self.vertices;
+        vertices[self.len] = vertex;
+        let foot = Self::foot_on(&vertices[..=self.len])?;
+        (foot.least_weight() > -SMALLEST_WEIGHT).then(|| foot.clamped())
+    }
+
     /// Moves the weights towards the target until the first vanishes, and drops what has vanished.
     fn step_towards(&mut self, target: &[f64; MAX_SIMPLEX]) {
         let mut share = f64::INFINITY;
