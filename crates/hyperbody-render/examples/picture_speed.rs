@@ -1,13 +1,20 @@
 //! How long pictures take, with soft shadows, for a scene after three seconds, by default a pile of 500 tesseracts:
-//! `cargo run --release -p hyperbody-render --example picture_speed [SCENE]`
+//! `cargo run --release -p hyperbody-render --example picture_speed [--check] [SCENE]`
+//!
+//! Each size has a limit, on two cores, and is said to keep it or not; with `--check` the exit status is 1 if one does not. That
+//! pictures are the same for every number of threads is compared on the way.
 
 use std::error::Error;
 use std::path::Path;
+use std::process::ExitCode;
 use std::time::Instant;
 
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody_render::{Bodies, Settings, Slice, frame_bodies, render};
 use hyperbody_scene::{AnyWorld, DimensionVisitor, Scene, built_in, visit_dimension};
+
+/// Pixels across and down, and how long a picture may take on two cores, s.
+const SIZES: [(u32, u32, f64); 2] = [(1280, 720, 4.0), (640, 360, 0.5)];
 
 /// Pictures of each size; the fastest counts, for others only waited longer.
 const ROUNDS: usize = 5;
@@ -15,7 +22,8 @@ const ROUNDS: usize = 5;
 struct Time<'a>(&'a AnyWorld);
 
 impl DimensionVisitor for Time<'_> {
-    type Output = Result<(), Box<dyn Error>>;
+    /// Whether all pictures keep their limits.
+    type Output = Result<bool, Box<dyn Error>>;
 
     fn visit<const N: usize>(self) -> Self::Output
     where
@@ -25,20 +33,30 @@ impl DimensionVisitor for Time<'_> {
         let slice = Slice::natural();
         let bodies = Bodies::of(world);
         let camera = frame_bodies(&bodies, &slice, 16.0 / 9.0);
-        for (width, height) in [(1280, 720), (640, 360)] {
+        let mut kept = true;
+        for (width, height, limit) in SIZES {
+            let mut first = None;
             for threads in [1, 2] {
                 let settings = Settings { width, height, threads, ..Settings::default() };
                 let mut fastest = f64::INFINITY;
                 for _ in 0..ROUNDS {
                     let start = Instant::now();
-                    render(&bodies, &slice, Some(&camera), &settings, &|_| ())?;
+                    let image = render(&bodies, &slice, Some(&camera), &settings, &|_| ())?;
                     fastest = fastest.min(start.elapsed().as_secs_f64());
+                    if *first.get_or_insert_with(|| image.clone()) != image {
+                        return Err(format!("{width} × {height}: {threads} threads draw another picture").into());
+                    }
                 }
+                let is_kept = fastest <= limit;
+                kept &= is_kept;
+                let verdict = if is_kept { "keeps" } else { "EXCEEDS" };
                 let plural = if threads == 1 { "" } else { "s" };
-                println!("{width} × {height}, {threads} thread{plural}: {fastest:.3} s");
+                println!(
+                    "{width} × {height}, {threads} thread{plural}: {fastest:.3} s, {verdict} the limit of {limit} s"
+                );
             }
         }
-        Ok(())
+        Ok(kept)
     }
 }
 
@@ -82,12 +100,25 @@ fn pile() -> Result<Scene, Box<dyn Error>> {
     Ok(Scene::from_json(&text)?)
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let scene = match std::env::args().nth(1) {
+fn main() -> ExitCode {
+    let mut names: Vec<String> = std::env::args().skip(1).collect();
+    let is_check = names.iter().any(|name| name == "--check");
+    names.retain(|name| name != "--check");
+    match measure(names.first().map(String::as_str)) {
+        Ok(kept) => ExitCode::from(u8::from(is_check && !kept)),
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn measure(name: Option<&str>) -> Result<bool, Box<dyn Error>> {
+    let scene = match name {
         None => pile()?,
-        Some(name) if Path::new(&name).is_file() => Scene::load(Path::new(&name))?,
+        Some(name) if Path::new(name).is_file() => Scene::load(Path::new(name))?,
         Some(name) => {
-            built_in(&name).map_err(|nearest| format!("there is no scene {name}; the nearest is {nearest}"))?
+            built_in(name).map_err(|nearest| format!("there is no scene {name}; the nearest is {nearest}"))?
         }
     };
     let mut world = AnyWorld::new(&scene, 1)?;
