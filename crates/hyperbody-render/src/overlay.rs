@@ -36,9 +36,12 @@ pub(crate) fn draw<const N: usize>(image: &mut Image, stage: &Stage<N>, settings
     let letter = scalar::pow(f64::from(unit), 0.6) as f32;
     let line = 26.0 * letter;
     let mut y = image.height() as f32 - 24.0 * unit - line * (settings.caption.len().saturating_sub(1)) as f32;
+    let strips = if settings.strip { strips_share(N, image.width(), image.height()) as f32 } else { 0.0 };
+    let most = image.width() as f32 * (1.0 - strips) - 48.0 * unit;
     for (index, caption) in settings.caption.iter().enumerate() {
         let height = if index == 0 { 22.0 } else { 18.0 } * letter;
-        text::draw(image, caption, (24.0 * unit, y), height, INK, 0.85);
+        let caption = text::fitted(caption, height, most);
+        text::draw(image, &caption, (24.0 * unit, y), height, INK, 0.85);
         y += line;
     }
 }
