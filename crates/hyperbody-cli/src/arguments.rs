@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::numbers::{seconds, whole};
 use crate::play::PlayArguments;
 use crate::render::arguments::RenderArguments;
 use crate::slice::SliceArguments;
@@ -64,10 +65,10 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "steps", allow_hyphen_values = true)]
     pub(crate) seconds: Option<f64>,
     /// How many steps to simulate, instead of --seconds
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_STEPS)))]
+    #[arg(long, value_name = "K", value_parser = whole::<u32>(0..=i64::from(MAX_STEPS)), allow_negative_numbers = true)]
     pub(crate) steps: Option<u32>,
     /// Threads to compute on; changes the time only, never the result
-    #[arg(long, value_name = "T", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "T", default_value_t = 1, value_parser = whole::<u16>(1..=256), allow_negative_numbers = true)]
     pub(crate) threads: u16,
     /// Start every dynamic body up to 0.1 mm off its place, chosen by this number: the same scene with another
     /// history. Without it nothing is random
@@ -78,7 +79,7 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) record: Option<PathBuf>,
     /// Record every K-th step only; the first and the last are always recorded
-    #[arg(long, value_name = "K", default_value_t = 1, requires = "record", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_STEPS)))]
+    #[arg(long, value_name = "K", default_value_t = 1, requires = "record", value_parser = whole::<u32>(1..=i64::from(MAX_STEPS)), allow_negative_numbers = true)]
     pub(crate) record_every: u32,
     /// Print one JSON object and nothing else
     #[arg(long)]
@@ -96,7 +97,7 @@ pub(crate) struct InspectArguments {
     /// A scene (file or built-in name), a recording, or a shape: an OFF file, or the shape of a scene as .json
     pub(crate) file: String,
     /// Dimension of a shape that does not tell, such as a ball
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=6))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(2..=6), allow_negative_numbers = true)]
     pub(crate) dimension: Option<u8>,
     /// Print one JSON object and nothing else
     #[arg(long)]
@@ -112,13 +113,13 @@ pub(crate) struct BenchArguments {
     /// Scene files or names of built-in scenes; all built-in scenes if none is given
     pub(crate) scenes: Vec<String>,
     /// Steps to run
-    #[arg(long, value_name = "K", default_value_t = 600, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_STEPS)))]
+    #[arg(long, value_name = "K", default_value_t = 600, value_parser = whole::<u32>(1..=i64::from(MAX_STEPS)), allow_negative_numbers = true)]
     pub(crate) steps: u32,
     /// How many of these steps, the first ones, to leave out of the figures [default: a fifth of the steps]
     #[arg(long, value_name = "K")]
     pub(crate) warmup: Option<u32>,
     /// Threads to compute on
-    #[arg(long, value_name = "T", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "T", default_value_t = 1, value_parser = whole::<u16>(1..=256), allow_negative_numbers = true)]
     pub(crate) threads: u16,
     /// Keep bodies awake even where the scene lets them sleep, so that resting bodies cost what they can cost
     #[arg(long)]
@@ -142,13 +143,4 @@ pub(crate) struct ScenesArguments {
     /// Print one JSON object and nothing else
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// Seconds: finite, not negative.
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
-        Ok(value) => Err(format!("{value} is not a finite number of seconds, 0 or more")),
-        Err(_) => Err("not a number".to_owned()),
-    }
 }

@@ -6,31 +6,29 @@ use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, Once, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::failure::Failure;
+use crate::stop;
 
 /// Files in the making.
 static DRAFTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Exit status of a program that was stopped from the keyboard: 128 and the number of the signal.
-const STOPPED: i32 = 130;
+/// Most bytes that a file in the making takes from its name: file systems end names at 255.
+const MOST_NAME_BYTES: usize = 200;
 
-/// Removes a file in the making as soon as the program is told to stop. Where that cannot be arranged it stays, under a name
-/// that says what it is.
-fn remove_when_stopped(draft: &Path) {
-    static LISTENING: Once = Once::new();
-    LISTENING.call_once(|| {
-        let _ = ctrlc::set_handler(|| {
-            // Held until the end, so that no other thread gives a file its name now.
-            let drafts = DRAFTS.lock().unwrap_or_else(PoisonError::into_inner);
-            for draft in drafts.iter() {
-                let _ = fs::remove_file(draft);
-            }
-            std::process::exit(STOPPED);
-        });
-    });
-    DRAFTS.lock().unwrap_or_else(PoisonError::into_inner).insert(draft.to_path_buf());
+fn drafts() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    DRAFTS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes all files in the making. No file gets its name as long as what is given back lives.
+pub(crate) fn remove_drafts() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    let drafts = drafts();
+    for draft in drafts.iter() {
+        // The program ends; there is nobody left to tell.
+        let _ = fs::remove_file(draft);
+    }
+    drafts
 }
 
 /// A file that can be written, as far as can be told beforehand.
@@ -48,6 +46,10 @@ impl Target {
     pub(crate) fn new(option: &str, path: &Path, extensions: &[&str]) -> Result<Self, Failure> {
         let refuse = |what: String| Err(Failure::Input(format!("{option}: {}: {what}", path.display())));
         let extension = extension_of(path);
+        let is_bare = |name: String| extensions.iter().any(|extension| name == format!(".{extension}"));
+        if path.file_name().is_some_and(|name| is_bare(name.to_string_lossy().to_lowercase())) {
+            return refuse("has no name before its ending; call it something".to_owned());
+        }
         if !extensions.contains(&extension.as_str()) {
             let wanted: Vec<String> = extensions.iter().map(|extension| format!(".{extension}")).collect();
             return refuse(format!("the name has to end in {}", wanted.join(" or ")));
@@ -69,6 +71,12 @@ impl Target {
         if !folder.is_dir() {
             return refuse(format!("there is no folder {}; make it first", folder.display()));
         }
+        // A name that is too long would be refused after the work, when the file gets it.
+        if let Err(error) = fs::symlink_metadata(path)
+            && error.kind() != io::ErrorKind::NotFound
+        {
+            return refuse(format!("cannot be written: {error}"));
+        }
         let target = Self { path: path.to_path_buf(), extension };
         if target.is_special() {
             return Ok(target);
@@ -83,9 +91,26 @@ impl Target {
         }
     }
 
-    /// Where the file is written before it gets its name.
+    /// Refuses to write over what is read.
+    ///
+    /// # Errors
+    /// If both are the same file.
+    pub(crate) fn refuse_input(&self, option: &str, input: &Path) -> Result<(), Failure> {
+        let whole = |path: &Path| path.canonicalize().ok();
+        if input.is_file() && whole(input) == whole(&self.path) {
+            let message = "is the input itself, which would be lost; name another file";
+            return Err(Failure::Input(format!("{option}: {}: {message}", self.path.display())));
+        }
+        Ok(())
+    }
+
+    /// Where the file is written before it gets its name; of a long name the beginning, so that there is room for the rest.
     fn aside(&self) -> PathBuf {
         let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let ends = name.char_indices().map(|(start, letter)| start + letter.len_utf8());
+        let kept = &name[..ends.take_while(|&end| end <= MOST_NAME_BYTES).last().unwrap_or(0)];
+        // A table and a picture of one run may be called alike.
+        let name = if kept.len() < name.len() { format!("{kept}….{}", self.extension) } else { name };
         folder_of(&self.path).join(format!(".{name}.{}.part", std::process::id()))
     }
 
@@ -113,7 +138,28 @@ impl Target {
     /// Has what is written aside removed if the program is told to stop; [`Target::publish`] or [`Target::discard`] ends that.
     pub(crate) fn begin(&self) {
         if !self.is_special() {
-            remove_when_stopped(&self.aside());
+            stop::listen();
+            drafts().insert(self.aside());
+        }
+    }
+
+    /// Gives what another program wrote aside its name, once it is on the disk.
+    pub(crate) fn publish_foreign(&self) -> Result<(), Failure> {
+        if self.is_special() {
+            return Ok(());
+        }
+        let file = File::options().write(true).open(self.aside());
+        let written = file.and_then(|file| file.sync_all().and_then(|()| file.metadata()));
+        match written {
+            Ok(metadata) if metadata.len() > 0 => self.publish(),
+            Ok(_) => {
+                self.discard();
+                Err(self.unwritable(&"nothing was written"))
+            }
+            Err(error) => {
+                self.discard();
+                Err(self.unwritable(&error))
+            }
         }
     }
 
@@ -128,7 +174,7 @@ impl Target {
             return Ok(());
         }
         let renamed = {
-            let mut drafts = DRAFTS.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut drafts = drafts();
             drafts.remove(&self.aside());
             fs::rename(self.aside(), &self.path)
         };
@@ -141,7 +187,7 @@ impl Target {
     /// Removes what was written aside.
     pub(crate) fn discard(&self) {
         if !self.is_special() {
-            DRAFTS.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.aside());
+            drafts().remove(&self.aside());
             // There is an error to report already, or nothing was written.
             let _ = fs::remove_file(self.aside());
         }

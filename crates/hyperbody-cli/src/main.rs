@@ -8,6 +8,7 @@ mod bench;
 mod failure;
 mod files;
 mod inspect;
+mod numbers;
 mod output;
 mod play;
 mod progress;
@@ -18,6 +19,7 @@ mod slice;
 mod source;
 mod spin;
 mod step_times;
+mod stop;
 
 use std::process::ExitCode;
 

@@ -9,6 +9,8 @@ mod sheet;
 mod timeline;
 mod view;
 
+use std::path::Path;
+
 use hyperbody_render::RenderError;
 
 use crate::failure::Failure;
@@ -27,6 +29,7 @@ impl From<RenderError> for Failure {
 
 pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let plan = Plan::new(arguments)?;
+    plan.target.refuse_input("--output", Path::new(&arguments.scene))?;
     let mut timeline = Timeline::open(&arguments.scene, arguments.threads)?;
     let view = View::new(arguments, timeline.dimension(), plan.size)?;
     let report = match &plan.work {
@@ -47,7 +50,7 @@ fn still(at: Option<f64>, plan: &Plan, view: &View<'_>, timeline: &mut Timeline)
         Drawing::new(view, 1).picture(view, timeline, frame, 0.0, &camera)?.write_png(&mut bytes)?;
     }
     plan.target.write(&bytes)?;
-    Ok(Report::new(timeline, &camera, &[at]).of(&plan.target, plan.size))
+    Ok(Report::new(timeline, &camera, &[at], sights.last().map(|(frame, _)| frame)).of(&plan.target, plan.size))
 }
 
 /// The moment of a picture if none is said, s: by then something has happened.

@@ -2,7 +2,6 @@
 
 mod record;
 
-use std::path::Path;
 use std::time::Instant;
 
 use hyperbody_scene::{AnyWorld, BodyState, Planes, Scene};
@@ -63,12 +62,6 @@ struct Contacts {
     final_max_penetration: f64,
 }
 
-/// Whether a path leads to the file that the scene came from.
-fn is_same_file(path: &Path, scene: &Scene) -> bool {
-    let whole = |path: &Path| path.canonicalize().ok();
-    scene.file.as_deref().is_some_and(|file| whole(file).is_some() && whole(file) == whole(path))
-}
-
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut scene = source::scene(&arguments.scene)?;
     if let Some(seed) = arguments.seed {
@@ -76,11 +69,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     let mut world = AnyWorld::new(&scene, usize::from(arguments.threads))?;
     let steps = steps(arguments, &scene)?;
-    if let Some(path) = arguments.record.as_deref().filter(|path| is_same_file(path, &scene)) {
-        let message = format!("--record: {} is the scene itself; name another file", path.display());
-        return Err(Failure::Input(message));
-    }
     let target = arguments.record.as_deref().map(|path| Target::anywhere("--record", path)).transpose()?;
+    if let (Some(target), Some(file)) = (&target, &scene.file) {
+        target.refuse_input("--record", file)?;
+    }
     let mut record = target.as_ref().map(|target| Record::begin(target, &scene, arguments.record_every)).transpose()?;
     let mut report = simulate(&scene, &mut world, steps, record.as_mut())?;
     report.recording = record.map(|record| record.finish(&world)).transpose()?;

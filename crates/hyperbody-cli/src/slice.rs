@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::files::Target;
+use crate::numbers::whole;
 use crate::output::{labelled, number, print, print_json};
 
 use project::Eye;
@@ -51,7 +52,7 @@ pub(crate) struct SliceArguments {
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
     /// Dimension of a shape that does not tell, such as a ball
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=6))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(2..=6), allow_negative_numbers = true)]
     pub(crate) dimension: Option<u8>,
     /// Print one JSON object and nothing else
     #[arg(long)]
@@ -79,6 +80,7 @@ struct Report {
 
 pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
     let target = Target::new("--output", &arguments.output, &["stl", "obj", "off", "glb"])?;
+    target.refuse_input("--output", &arguments.file)?;
     let file = load(&arguments.file, arguments.dimension)?;
     let planes = hyperplanes(arguments, file.dimension)?;
     if arguments.project {

@@ -5,9 +5,10 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 use hyperbody_scene::recording::{RecordingError, RecordingReader};
-use hyperbody_scene::{Scene, built_in};
+use hyperbody_scene::{BUILT_IN, Scene, built_in, meant};
 
 use crate::failure::Failure;
+use crate::numbers::shortened;
 
 /// A recording in a file.
 pub(crate) type Recording = RecordingReader<BufReader<File>>;
@@ -22,14 +23,17 @@ pub(crate) fn scene(argument: &str) -> Result<Scene, Failure> {
         }
         return Ok(Scene::load(path)?);
     }
-    built_in(argument).or_else(|nearest| {
+    built_in(argument).or_else(|_| {
         if path.exists() || path.extension().is_some() || path.components().count() > 1 {
             // It was meant as a file; reading it says why that fails.
             return Ok(Scene::load(path)?);
         }
+        // A far-fetched hint is worse than none.
+        let hint = meant(argument, BUILT_IN.iter().map(|scene| scene.name));
+        let hint = hint.map_or(String::new(), |name| format!("; the nearest is \"{name}\""));
+        let named = shortened(argument);
         Err(Failure::Input(format!(
-            "there is no file \"{argument}\", and no built-in scene of that name; the nearest is \"{nearest}\" \
-             (`hyperbody scenes` lists them all)"
+            "there is no file \"{named}\", and no built-in scene of that name{hint} (`hyperbody scenes` lists them all)"
         )))
     })
 }

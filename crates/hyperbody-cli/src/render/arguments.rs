@@ -4,9 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use hyperbody::math::planes::AXIS_NAMES;
+use hyperbody_render::film::FRAME_RATES;
 use hyperbody_render::picture::{MAX_SIDE, MIN_SIDE};
 
-use crate::arguments::seconds;
+use crate::numbers::{LARGEST_PLACE, LARGEST_TIME, LARGEST_TURN, place, seconds, shortened, turn, whole, within};
+
+/// Pixels across or down.
+const SIDES: std::ops::RangeInclusive<i64> = MIN_SIDE as i64..=MAX_SIDE as i64;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Pictures:\n  \
@@ -38,51 +42,51 @@ pub(crate) struct RenderArguments {
     /// The moment to show, in simulated seconds; of a film, the first one [default: 3 for pictures, 0 for films]
     #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
     pub(crate) at: Option<f64>,
-    /// How long a film plays, in seconds [default: 4, or what is left of a recording]
+    /// How long a film plays, in seconds [default: 4; of a recording, all that is left]
     #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
     pub(crate) seconds: Option<f64>,
     /// Simulated seconds per second of a film: 0.25 is slow motion, at 0 time stands still [default: 1]
     #[arg(long, value_name = "FACTOR", value_parser = speed, allow_hyphen_values = true)]
     pub(crate) speed: Option<f64>,
     /// Pictures per second of a film, at most 50 for a GIF [default: 25]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=60))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(i64::from(*FRAME_RATES.start())..=i64::from(*FRAME_RATES.end())), allow_negative_numbers = true)]
     pub(crate) frame_rate: Option<u16>,
     /// A sheet of COUNT pictures in which an axis (w=-1..1), a turn (xw=0..90) or the time (t=0..4) goes from one value to
     /// another
     #[arg(long, value_name = "w=FROM..TO,COUNT", value_parser = sheet_axis, allow_hyphen_values = true)]
     pub(crate) sheet: Option<SheetAxis>,
     /// Pictures in a row of a sheet [default: about as many as rows]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=64), allow_negative_numbers = true)]
     pub(crate) columns: Option<u32>,
     /// Pixels across [default: 1280; 640 for films, 480 for each picture of a sheet]
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(i64::from(MIN_SIDE)..=i64::from(MAX_SIDE)))]
+    #[arg(long, value_name = "PIXELS", value_parser = whole::<u32>(SIDES), allow_negative_numbers = true)]
     pub(crate) width: Option<u32>,
     /// Pixels down [default: 9/16 of those across]
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(i64::from(MIN_SIDE)..=i64::from(MAX_SIDE)))]
+    #[arg(long, value_name = "PIXELS", value_parser = whole::<u32>(SIDES), allow_negative_numbers = true)]
     pub(crate) height: Option<u32>,
     /// A point that the slice goes through, by axes, in metres; axes left out are 0
-    #[arg(long, value_name = "w=0.5,…", value_parser = assignments, allow_hyphen_values = true)]
+    #[arg(long, value_name = "w=0.5,…", value_parser = places, allow_hyphen_values = true)]
     pub(crate) slice: Option<Assignments>,
     /// Where the slice is at the end of a film; it goes there evenly
-    #[arg(long, value_name = "w=1,…", value_parser = assignments, allow_hyphen_values = true)]
+    #[arg(long, value_name = "w=1,…", value_parser = places, allow_hyphen_values = true)]
     pub(crate) slice_to: Option<Assignments>,
     /// Turns of the slice by planes, in degrees, one after the other
-    #[arg(long, value_name = "xw=30,…", value_parser = assignments, allow_hyphen_values = true)]
+    #[arg(long, value_name = "xw=30,…", value_parser = turns, allow_hyphen_values = true)]
     pub(crate) turn: Option<Assignments>,
     /// How far the slice is turned at the end of a film; it turns evenly
-    #[arg(long, value_name = "xw=90,…", value_parser = assignments, allow_hyphen_values = true)]
+    #[arg(long, value_name = "xw=90,…", value_parser = turns, allow_hyphen_values = true)]
     pub(crate) turn_to: Option<Assignments>,
     /// Where the eye is: degrees around the vertical, degrees above the horizon, and if wanted the distance in metres
-    #[arg(long, value_name = "AROUND,ABOVE[,DISTANCE]", value_parser = numbers, allow_hyphen_values = true)]
+    #[arg(long, value_name = "AROUND,ABOVE[,DISTANCE]", value_parser = eye, allow_hyphen_values = true)]
     pub(crate) camera: Option<Numbers>,
     /// What is in the middle of the picture, beside the strips, in coordinates of the slice
-    #[arg(long, value_name = "X,Y,Z", value_parser = numbers, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     pub(crate) look_at: Option<Numbers>,
     /// Angle from the lower to the upper edge, in degrees
-    #[arg(long, value_name = "DEGREES", value_parser = angle_of_view)]
+    #[arg(long, value_name = "DEGREES", value_parser = angle_of_view, allow_negative_numbers = true)]
     pub(crate) field_of_view: Option<f64>,
     /// Rays of light per pixel: 1 for a draft, 16 for print
-    #[arg(long, value_name = "RAYS", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "RAYS", default_value_t = 3, value_parser = whole::<u32>(1..=64), allow_negative_numbers = true)]
     pub(crate) quality: u32,
     /// Leave out the bodies beside the slice
     #[arg(long)]
@@ -94,7 +98,7 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) no_caption: bool,
     /// Threads to draw on [default: one per core]; changes the time only, never the picture
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "T", value_parser = whole::<u16>(1..=256), allow_negative_numbers = true)]
     pub(crate) threads: Option<u16>,
     /// Print one JSON object that says what was drawn: moments, size, the camera that was chosen, the hash of the state
     #[arg(long)]
@@ -139,7 +143,7 @@ impl SheetAxis {
 }
 
 fn sheet_axis(text: &str) -> Result<SheetAxis, String> {
-    let form = || format!("\"{text}\" is not of the form NAME=FROM..TO,COUNT, such as w=-1..1,9");
+    let form = || format!("\"{}\" is not of the form NAME=FROM..TO,COUNT, such as w=-1..1,9", shortened(text));
     let (name, range) = text.split_once('=').ok_or_else(form)?;
     let (range, count) = match range.split_once(',') {
         Some((range, count)) => (range, count.trim().parse().map_err(|_| form())?),
@@ -149,42 +153,62 @@ fn sheet_axis(text: &str) -> Result<SheetAxis, String> {
     if !(2..=MAX_PICTURES).contains(&count) {
         return Err(format!("a sheet has 2 to {MAX_PICTURES} pictures, not {count}"));
     }
-    Ok(SheetAxis { name: name.trim().to_owned(), from: finite(from)?, to: finite(to)?, count })
+    if to.starts_with('.') {
+        let digits = to.trim_start_matches('.');
+        return Err(format!(
+            "\"{}\" has more than two dots; write {from}..{digits}, or {from}..0.{digits}",
+            shortened(text)
+        ));
+    }
+    let name = name.trim().to_owned();
+    let value = |text: &str| match name.chars().count() {
+        1 if name == "t" => within(text, -LARGEST_TIME..=LARGEST_TIME, " s"),
+        1 => within(text, -LARGEST_PLACE..=LARGEST_PLACE, " m"),
+        _ => within(text, -LARGEST_TURN..=LARGEST_TURN, "°"),
+    };
+    Ok(SheetAxis { from: value(from)?, to: value(to)?, count, name })
 }
 
 fn speed(text: &str) -> Result<f64, String> {
-    match finite(text)? {
-        value if (0.0..=1000.0).contains(&value) => Ok(value),
-        value => Err(format!("{value} is not a speed from 0 (time stands still) to 1000")),
-    }
+    within(text, 0.0..=1000.0, "; at 0 time stands still")
 }
 
-fn finite(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(format!("\"{text}\" is not a finite number")),
-    }
-}
-
-fn assignments(text: &str) -> Result<Assignments, String> {
+fn assignments(text: &str, value_of: impl Fn(&str) -> Result<f64, String>) -> Result<Assignments, String> {
     let parse = |part: &str| {
-        let (name, value) = part.split_once('=').ok_or_else(|| format!("\"{part}\" is not of the form NAME=NUMBER"))?;
-        Ok((name.trim().to_owned(), finite(value)?))
+        let form = || format!("\"{}\" is not of the form NAME=NUMBER", shortened(part));
+        let (name, value) = part.split_once('=').ok_or_else(form)?;
+        Ok((name.trim().to_owned(), value_of(value)?))
     };
     text.split(',').map(parse).collect::<Result<_, String>>().map(Assignments)
 }
 
-fn numbers(text: &str) -> Result<Numbers, String> {
-    text.split(',').map(finite).collect::<Result<_, _>>().map(Numbers)
+fn places(text: &str) -> Result<Assignments, String> {
+    assignments(text, place)
 }
 
+fn turns(text: &str) -> Result<Assignments, String> {
+    assignments(text, turn)
+}
+
+fn point(text: &str) -> Result<Numbers, String> {
+    text.split(',').map(place).collect::<Result<_, _>>().map(Numbers)
+}
+
+/// Degrees around, degrees above, and maybe a distance; how many there are is checked elsewhere.
+fn eye(text: &str) -> Result<Numbers, String> {
+    let number = |(index, text): (usize, &str)| match index {
+        0 => turn(text),
+        1 => within(text, -90.0..=90.0, "° above the horizon"),
+        _ => within(text, MIN_DISTANCE..=LARGEST_PLACE, " m away (without a distance one that fits is chosen)"),
+    };
+    text.split(',').enumerate().map(number).collect::<Result<_, _>>().map(Numbers)
+}
+
+/// Least distance of the camera, m.
+const MIN_DISTANCE: f64 = 0.001;
+
 fn angle_of_view(text: &str) -> Result<f64, String> {
-    let degrees = finite(text)?;
-    if (1.0..=150.0).contains(&degrees) {
-        Ok(degrees)
-    } else {
-        Err(format!("{degrees}° is not between 1° and 150°"))
-    }
+    within(text, 1.0..=150.0, "°")
 }
 
 /// The number of an axis by its name, among `dimension` axes.

@@ -11,11 +11,12 @@ use super::timeline::Timeline;
 use super::view::{Drawing, Sight, View};
 use crate::failure::Failure;
 use crate::files::{Aside, Target};
+use crate::output::number;
 
 /// Most pictures of a film: three minutes at 20 a second.
 const MAX_FRAMES: f64 = 3600.0;
 
-/// How long a film plays if nothing is said, s.
+/// How long a film of a simulation, which has no end, plays if nothing is said, s.
 const DEFAULT_SECONDS: f64 = 4.0;
 
 /// Where the pictures go.
@@ -37,6 +38,13 @@ pub(super) fn write(film: &Film, plan: &Plan, view: &View<'_>, timeline: &mut Ti
         }
         Format::Mp4 => {
             let target = Target::new("--output", &plan.target.path().with_extension("apng"), &["apng"])?;
+            if target.path().exists() {
+                return Err(Failure::Input(format!(
+                    "there is no program ffmpeg on the PATH, which makes .mp4 files, and {} is there already, which would be \
+                     written instead; install ffmpeg, or name that file with --output to overwrite it",
+                    target.display()
+                )));
+            }
             eprintln!(
                 "warning: there is no program ffmpeg on the PATH, which makes .mp4 files; the film is written to {} \
                  instead, an animated PNG, which browsers play",
@@ -67,14 +75,15 @@ fn store(
 fn frames(film: &Film, timeline: &Timeline) -> Result<u32, Failure> {
     let rate = f64::from(film.rate);
     timeline.check(film.at)?;
-    let seconds = film.seconds.unwrap_or_else(|| {
-        let left = timeline.up_to(film.at + DEFAULT_SECONDS * film.speed) - film.at;
-        if film.speed > 0.0 { left.max(0.0) / film.speed } else { DEFAULT_SECONDS }
-    });
+    let left = timeline.left_after(film.at).filter(|_| film.speed > 0.0).map(|left| left / film.speed);
+    let seconds = film.seconds.or(left).unwrap_or(DEFAULT_SECONDS);
     let frames = (seconds * rate).round().max(1.0);
     if frames > MAX_FRAMES {
+        let whose = if film.seconds.is_some() { "--seconds" } else { "what is left of the recording lasts" };
         return Err(Failure::Input(format!(
-            "--seconds {seconds} at {rate} pictures a second are {frames} pictures; at most {MAX_FRAMES} make a film"
+            "{whose} {} s; at {rate} pictures a second these are {frames} pictures, and {MAX_FRAMES} at most make a film: give \
+             fewer --seconds, a higher --speed or a lower --frame-rate",
+            number(seconds)
         )));
     }
     timeline.check(film.at + (frames - 1.0) / rate * film.speed)?;
@@ -99,12 +108,14 @@ fn draw(
     let sights: Vec<Sight> = ahead.into_iter().zip(slices).collect();
     let camera = view.camera(timeline, &sights)?;
     let drawing = Drawing::new(view, frames);
+    let mut last = None;
     for number in 0..frames {
         let frame = kept.next(timeline, moments[number as usize])?;
         output.add(&drawing.picture(view, timeline, &frame, share(number), &camera)?)?;
+        last = Some(frame);
     }
     output.finish()?;
-    Ok(Report::new(timeline, &camera, &moments))
+    Ok(Report::new(timeline, &camera, &moments, last.as_ref()))
 }
 
 /// The parts of a film that the camera is chosen for.

@@ -1,13 +1,14 @@
 //! MP4 by way of the program ffmpeg, which is given the pictures as they are drawn.
 
 use std::io::{Read, Write};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{ChildStdin, Command, ExitStatus, Stdio};
 use std::thread::JoinHandle;
 
 use hyperbody_render::Image;
 
 use crate::failure::Failure;
 use crate::files::Target;
+use crate::stop;
 
 /// Most that is kept of what ffmpeg complains of, bytes.
 const MAX_COMPLAINT: u64 = 4096;
@@ -22,7 +23,6 @@ pub(super) fn is_there() -> bool {
 /// A film that ffmpeg is making.
 pub(super) struct Mp4<'a> {
     target: &'a Target,
-    child: Child,
     pictures: Option<ChildStdin>,
     complaint: Option<JoinHandle<String>>,
     finished: bool,
@@ -32,7 +32,7 @@ impl<'a> Mp4<'a> {
     /// Starts ffmpeg. It writes aside, and the film gets its name at the end.
     pub(super) fn new(target: &'a Target, (width, height): (u32, u32), rate: u16) -> Result<Self, Failure> {
         let mut command = Command::new("ffmpeg");
-        command.args(["-hide_banner", "-loglevel", "error", "-nostdin", "-y"]);
+        command.args(["-hide_banner", "-loglevel", "error", "-nostdin", "-xerror", "-y"]);
         command.args(["-f", "rawvideo", "-pixel_format", "rgb24"]);
         command.args(["-video_size", &format!("{width}x{height}"), "-framerate", &rate.to_string(), "-i", "pipe:0"]);
         // H.264 in 4:2:0 is what every player shows; the colours are said to be those of BT.709, and converted so.
@@ -51,6 +51,9 @@ impl<'a> Mp4<'a> {
         // The table of contents comes first, so that a film plays while it is loaded.
         command.args(["-movflags", "+faststart", "-f", "mp4"]).arg(target.draft());
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+        // Ctrl-C is for this program alone, which stops ffmpeg itself; otherwise ffmpeg's end would pass for a failure.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
         target.begin();
         let mut child = command.spawn().map_err(|error| target.unwritable(&format!("ffmpeg: {error}")))?;
         let pictures = child.stdin.take();
@@ -63,7 +66,8 @@ impl<'a> Mp4<'a> {
                 String::from_utf8_lossy(&text).into_owned()
             })
         });
-        Ok(Self { target, child, pictures, complaint, finished: false })
+        stop::adopt(child);
+        Ok(Self { target, pictures, complaint, finished: false })
     }
 
     /// Adds the next picture.
@@ -79,19 +83,23 @@ impl<'a> Mp4<'a> {
     /// Completes the film.
     pub(super) fn finish(mut self) -> Result<(), Failure> {
         drop(self.pictures.take());
-        match self.child.wait() {
-            Ok(status) if status.success() => {
-                self.finished = true;
-                self.target.publish()
-            }
-            _ => Err(self.failure()),
+        let status = stop::wait_for_helper();
+        if status.as_ref().is_ok_and(ExitStatus::success) {
+            self.finished = true;
+            return self.target.publish_foreign();
         }
+        Err(self.told(status))
     }
 
-    /// What ffmpeg says is wrong.
+    /// What ffmpeg says is wrong, once it has ended.
     fn failure(&mut self) -> Failure {
         drop(self.pictures.take());
-        let status = self.child.wait();
+        let status = stop::wait_for_helper();
+        self.told(status)
+    }
+
+    /// What ffmpeg said, and else how it ended.
+    fn told(&mut self, status: std::io::Result<ExitStatus>) -> Failure {
         let complaint = self.complaint.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
         let lines: Vec<&str> = complaint.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
         let why = if lines.is_empty() {
@@ -107,9 +115,7 @@ impl Drop for Mp4<'_> {
     fn drop(&mut self) {
         if !self.finished {
             drop(self.pictures.take());
-            // It may have ended already; there is another error to report.
-            let _ = self.child.kill();
-            let _ = self.child.wait();
+            drop(stop::stop_helper());
             self.target.discard();
         }
     }

@@ -30,6 +30,9 @@ pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut 
     } else {
         Varied::Turn(arguments::plane(name, dimension).map_err(bad)?)
     };
+    if view.hides_strip() && !matches!(varied, Varied::Place(3..)) {
+        eprintln!("warning: --no-strip changes nothing: only sheets of places along a hidden axis have strips");
+    }
     match varied {
         Varied::Time => {}
         Varied::Place(axis) => view.check_unsaid_axis(axis, name)?,
@@ -63,7 +66,8 @@ pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut 
     let mut bytes = Vec::new();
     image.write_png(&mut bytes)?;
     plan.target.write(&bytes)?;
-    Ok(Report::new(timeline, &camera, &ordered).of(&plan.target, (image.width(), image.height())))
+    Ok(Report::new(timeline, &camera, &ordered, sights.last().map(|(frame, _)| frame))
+        .of(&plan.target, (image.width(), image.height())))
 }
 
 impl Varied {

@@ -64,6 +64,17 @@ impl Timeline {
         self.start.dimension()
     }
 
+    /// What a body is called, by its number.
+    pub(super) fn body_name(&self, body: usize) -> &str {
+        self.start.body_names().get(body).map_or("", String::as_str)
+    }
+
+    /// From a moment to the end, s; a simulation has none.
+    pub(super) fn left_after(&self, seconds: f64) -> Option<f64> {
+        let (_, last) = self.span();
+        last.is_finite().then(|| (last - seconds).max(0.0))
+    }
+
     /// The first and the last moment that there is, s; a simulation has no last one.
     fn span(&self) -> (f64, f64) {
         match &self.kind {

@@ -3,15 +3,16 @@
 use std::cell::Cell;
 use std::sync::Mutex;
 
-use hyperbody::math::{Dim, EvenAlgebra, Vector, planes, scalar};
+use hyperbody::math::{Dim, EvenAlgebra, Vector, planes};
 use hyperbody_render::picture::parts;
-use hyperbody_render::{Camera, Image, Settings, Slice, frame_all, render as draw, strips_share};
+use hyperbody_render::{Bodies, Camera, Image, Settings, Slice, Viewpoint, frame_from, render as draw, strips_share};
 use hyperbody_scene::recording::Frame;
 use hyperbody_scene::{DimensionVisitor, visit_dimension};
 
 use super::arguments::{self, Assignments, RenderArguments};
 use super::timeline::Timeline;
 use crate::failure::Failure;
+use crate::numbers::shortened;
 use crate::output::number;
 use crate::progress::Progress;
 
@@ -90,7 +91,28 @@ impl<'a> View<'a> {
             view.turn_in(plane).angles[1] = degrees.to_radians();
         }
         view.check_camera()?;
+        view.warn_of_idle_options(dimension);
         Ok(view)
+    }
+
+    /// Whether `--no-strip` is said of a scene that has strips.
+    pub(super) fn hides_strip(&self) -> bool {
+        self.arguments.no_strip && self.points[0].len() > 3
+    }
+
+    /// Says which options change nothing in this scene.
+    fn warn_of_idle_options(&self, dimension: usize) {
+        let idle = [("--no-ghosts", self.arguments.no_ghosts), ("--no-strip", self.arguments.no_strip)];
+        for (option, _) in idle.iter().filter(|(_, given)| *given && dimension < 4) {
+            eprintln!("warning: {option} changes nothing: {dimension} dimensions have no hidden axis");
+        }
+        let still = self.arguments.speed == Some(0.0);
+        if still && self.arguments.slice_to.is_none() && self.arguments.turn_to.is_none() {
+            eprintln!(
+                "warning: with --speed 0 time stands still, and all pictures are the same; --slice-to or --turn-to moves \
+                 the slice"
+            );
+        }
     }
 
     fn check_camera(&self) -> Result<(), Failure> {
@@ -105,17 +127,7 @@ impl<'a> View<'a> {
                 return Err(bad(option, format!("has {} numbers, expected {wanted}", list.0.len())));
             }
         }
-        let distance = self.arguments.camera.as_ref().and_then(|list| list.0.get(2));
-        match distance {
-            Some(&distance) if !(MIN_DISTANCE..=MAX_DISTANCE).contains(&distance) => {
-                let message = format!(
-                    "the distance is {distance} m; the camera stands {MIN_DISTANCE} to {MAX_DISTANCE:e} m away from what it \
-                     looks at (leave the distance out and one that fits is chosen)"
-                );
-                Err(bad("--camera", message))
-            }
-            _ => Ok(()),
-        }
+        Ok(())
     }
 
     /// Refuses a sheet along an axis of which `--slice` says where the slice is.
@@ -204,33 +216,43 @@ impl<'a> View<'a> {
         vec![format!("{}, {dimension}D", timeline.name()), second]
     }
 
-    /// The camera as the options change it.
-    fn adjusted(&self, chosen: Camera) -> Camera {
-        let mut camera = chosen;
-        if let Some(point) = self.arguments.look_at.as_ref().and_then(|list| Vector::from_slice(&list.0)) {
-            camera.eye += point - camera.target;
-            camera.target = point;
-        }
-        let mut distance = camera.eye.distance(camera.target);
+    /// The camera as the options say it, chosen where they are silent.
+    fn chosen<const N: usize>(&self, sights: &[(Bodies<N>, Slice<N>)], aspect: f64) -> Camera {
+        let mut viewpoint = Viewpoint::natural(N);
+        viewpoint.target = self.arguments.look_at.as_ref().and_then(|list| Vector::from_slice(&list.0));
         if let Some(degrees) = self.arguments.field_of_view {
-            let tangent = |angle: f64| scalar::tan(0.5 * angle);
-            distance *= tangent(camera.field_of_view) / tangent(degrees.to_radians());
-            camera.eye = camera.target + (camera.eye - camera.target).normalize_or_zero() * distance;
-            camera.field_of_view = degrees.to_radians();
+            viewpoint.field_of_view = degrees.to_radians();
         }
-        if let Some(list) = &self.arguments.camera {
-            let distance = list.0.get(2).copied().unwrap_or(distance);
-            let (around, above) = (list.0[0].to_radians(), list.0[1].to_radians());
-            let field_of_view = camera.field_of_view;
-            camera = Camera { field_of_view, ..Camera::around(camera.target, camera.up, distance, around, above) };
+        let Some(list) = &self.arguments.camera else { return frame_from(sights, aspect, &viewpoint) };
+        let (azimuth, elevation) = (list.0[0].to_radians(), list.0[1].to_radians());
+        match list.0.get(2) {
+            // Whoever says the distance as well walks around one point, whatever the angles.
+            Some(&distance) => {
+                let Camera { target, up, field_of_view, .. } = frame_from(sights, aspect, &viewpoint);
+                Camera { field_of_view, ..Camera::around(target, up, distance, azimuth, elevation) }
+            }
+            None => frame_from(sights, aspect, &Viewpoint { azimuth, elevation, ..viewpoint }),
         }
-        camera
+    }
+
+    /// Says which half-spaces are not to be seen because the slice lies within them.
+    fn warn_of_half_spaces<const N: usize>(&self, timeline: &Timeline, sights: &[(Bodies<N>, Slice<N>)]) {
+        let mut around: Vec<usize> =
+            sights.iter().flat_map(|(bodies, slice)| bodies.half_spaces_around(slice)).collect();
+        around.sort_unstable();
+        around.dedup();
+        let names: Vec<String> =
+            around.iter().take(3).map(|&body| format!("\"{}\"", shortened(timeline.body_name(body)))).collect();
+        if !names.is_empty() {
+            let more = if around.len() > names.len() { " and others" } else { "" };
+            eprintln!(
+                "warning: the slice lies wholly within the half-space {}{more}; from within there is nothing of it to see, \
+                 and it is left out (--slice moves the slice)",
+                names.join(", ")
+            );
+        }
     }
 }
-
-/// Distances of the camera that make sense, m.
-const MIN_DISTANCE: f64 = 0.001;
-const MAX_DISTANCE: f64 = 1e6;
 
 fn named(list: &Option<Assignments>) -> &[(String, f64)] {
     list.as_ref().map_or(&[], |list| &list.0)
@@ -338,7 +360,8 @@ impl DimensionVisitor for ChooseCamera<'_> {
             sights.push((self.timeline.bodies::<N>(frame)?, slice.in_dimension::<N>()));
         }
         let (share, aspect) = self.view.room(N);
-        Ok(self.view.adjusted(frame_all(&sights, aspect * (1.0 - share))))
+        self.view.warn_of_half_spaces(self.timeline, &sights);
+        Ok(self.view.chosen(&sights, aspect * (1.0 - share)))
     }
 }
 

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
+use crate::numbers::whole;
+
 #[derive(Args, Debug)]
 #[command(
     group = ArgGroup::new("body").required(true).args(["moments", "inertia", "shape"]),
@@ -39,7 +41,7 @@ pub(crate) struct SpinArguments {
     #[arg(long, value_name = "SHAPE")]
     pub(super) shape: Option<String>,
     /// Dimension of a shape that does not tell, such as a ball or a cube
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=6))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(2..=6), allow_negative_numbers = true)]
     pub(super) dimension: Option<u8>,
     /// Spin at the start, plane by plane, in rad/s; planes that are not named do not turn
     #[arg(long, value_name = "xy=1,…", allow_hyphen_values = true, required_unless_present = "map")]
@@ -64,7 +66,7 @@ pub(crate) struct SpinArguments {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(super) compare: Vec<String>,
     /// About how many moments of the run to keep for series and pictures; drift and flips see every step
-    #[arg(long, value_name = "K", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "K", default_value_t = 2000, value_parser = whole::<u32>(1..=100_000), allow_negative_numbers = true)]
     pub(super) samples: u32,
     /// Draw a picture into this file, .svg or .png
     #[arg(long, value_name = "FILE")]
@@ -88,7 +90,7 @@ pub(crate) struct SpinArguments {
     #[arg(long, value_name = "FROM,TO", requires = "map", allow_hyphen_values = true)]
     pub(super) range: Option<String>,
     /// Cells along each side of a map
-    #[arg(long, value_name = "K", requires = "map", default_value_t = 200, value_parser = clap::value_parser!(u16).range(2..=2000))]
+    #[arg(long, value_name = "K", requires = "map", default_value_t = 200, value_parser = whole::<u16>(2..=2000), allow_negative_numbers = true)]
     pub(super) cells: u16,
     /// Print one JSON object and nothing else
     #[arg(long)]

@@ -261,6 +261,10 @@ fn what_is_no_scene_at_all() {
     assert_ends_badly(&["run", folder], &["cannot be read"]);
     assert_ends_badly(&["run", "not-there.json"], &["not-there.json: cannot be read"]);
     assert_ends_badly(&["run", "stakc4d"], &["no file \"stakc4d\"", "nearest is \"stack4d\""]);
+    let output = hyperbody(&["run", "nosuch"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(error.contains("no built-in scene of that name (`hyperbody scenes`"), "nothing is like it: {error}");
+    assert_refused("no/picture.json", b"\x89PNG\r\n\x1a\n and more", &["is a PNG picture", "name a scene"]);
 }
 
 #[test]

@@ -6,6 +6,8 @@ mod inspect_regular;
 mod play;
 mod recording;
 mod render;
+mod render_arguments;
+mod render_failures;
 mod render_limits;
 mod results;
 mod slice;

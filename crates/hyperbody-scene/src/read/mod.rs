@@ -71,6 +71,17 @@ impl Scene {
     }
 }
 
+/// First bytes of files that are likely to be named by mistake, and what they are.
+const OTHER_FILES: [(&[u8], &str); 7] = [
+    (b"\x89PNG\r\n\x1a\n", "a PNG picture"),
+    (b"GIF8", "a GIF film"),
+    (b"\xff\xd8\xff", "a JPEG picture"),
+    (b"\x00\x00\x00\x20ftyp", "an MP4 film"),
+    (b"PK\x03\x04", "a zip archive"),
+    (b"\x1f\x8b", "a file packed by gzip"),
+    (b"\x89HBREC", "a recording"),
+];
+
 /// The text of a file of at most `limit` bytes.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String> {
     let refuse = |message: String| SceneError::new(ErrorKind::File, "", message).in_file(Some(path));
@@ -79,6 +90,9 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String> {
     File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
     if bytes.len() as u64 > limit {
         return Err(refuse(format!("is larger than {} MiB, the limit for such files; split it", limit >> 20)));
+    }
+    if let Some((_, kind)) = OTHER_FILES.iter().find(|(first, _)| bytes.starts_with(first)) {
+        return Err(refuse(format!("is {kind}, and no text; name a scene or a shape, a .json or .off file")));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
