@@ -97,6 +97,13 @@ pub const MAX_DESCENT_TURNS: u32 = 32;
 /// From how many facets of the penetration search that ended at its bounds descents start.
 pub const DESCENT_STARTS: u32 = 24;
 
+/// Up to how many pairs of faces a query looks at, where the penetration search ended at its bounds, for the depth by
+/// separating axes: tens of milliseconds.
+pub const MAX_FACE_PAIRS: u64 = 20_000;
+
+/// Up to how many facets of a polytope its faces are listed for that.
+pub const MAX_AXES_FACETS: usize = 256;
+
 /// How often in a row a normal that won before, and is still the best in its neighbourhood, may win again without a
 /// full search: because no way out can be shorter than [`RECHECK_FRACTION`] of its depth, or because the overlap is
 /// [`SHALLOW`], so that no way out can be shorter by more than that.

@@ -55,7 +55,11 @@ impl<const N: usize> SeparatingAxes<N> {
     /// Prepares the core of a convex piece: of points and segments too, whose faces are fewer.
     #[must_use]
     pub fn of_core(convex: &Convex<N>) -> Self {
-        match &convex.core {
+        Self::prepare(&convex.core)
+    }
+
+    pub(crate) fn prepare(core: &Core<N>) -> Self {
+        match core {
             Core::Polytope(polytope) => Self::new(polytope),
             core => Self { core: core.clone(), spaces: (0..N).map(|rank| spaces_of(core, rank)).collect() },
         }

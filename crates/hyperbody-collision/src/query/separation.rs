@@ -10,6 +10,7 @@ use hyperbody_geometry::{Convex, Core, Shape};
 use hyperbody_math::{Pose, Vector};
 
 use crate::box_sat::Feature;
+use crate::detect::SeparatingAxes;
 use crate::difference::Difference;
 use crate::gjk::{self, Proximity, Seeds};
 use crate::narrow::{Scratch, is_finite, plane_in_world};
@@ -113,7 +114,8 @@ pub fn closest<const N: usize>(
 /// Distance or depth of two shapes. Of compounds it is that of the two parts that are closest, or deepest in each other:
 /// moving b by it frees these two, but maybe not the others. Depths of polytopes whose Minkowski difference has tens of
 /// thousands of facets around the way out, in five and six dimensions, may be those of a way out that is the shortest only
-/// among its neighbours ([`crate::limits::MAX_EPA_FACETS`]). `None` between two half-spaces, which are unbounded, and for
+/// among its neighbours ([`crate::limits::MAX_EPA_FACETS`]), unless their pairs of faces are few enough for separating axes
+/// ([`crate::limits::MAX_FACE_PAIRS`]). `None` between two half-spaces, which are unbounded, and for
 /// poses that are not finite.
 ///
 /// ```
@@ -347,8 +349,11 @@ fn by_difference<const N: usize>(difference: &Difference<'_, N>, scratch: &mut S
         Proximity::Overlap(simplex) => {
             let found = general::penetrate(difference, &simplex, f64::INFINITY, scratch);
             let witness = general::deepest(difference, &found);
-            let cut_off = found.points.is_some();
-            if cut_off { shallower_by_facet(difference, witness, &mut scratch.effort.descent_turns) } else { witness }
+            if found.points.is_none() {
+                return witness;
+            }
+            let by_facet = shallower_by_facet(difference, witness, &mut scratch.effort.descent_turns);
+            shallower_by_axes(difference, by_facet)
         }
         // Nothing is farther away than infinity.
         Proximity::Apart { normal } => {
@@ -401,4 +406,26 @@ fn shallower_by_facet<const N: usize>(
     let Some(facet) = overlap::best_facet(difference, thickness, Feature::None, witness.normal) else { return witness };
     let by_facet = descent::descend(difference, facet.normal, turns);
     if by_facet.separation > witness.separation { by_facet } else { witness }
+}
+
+/// The witness, or what the separating axes of all pairs of faces find if that is shallower: the depth itself, where the
+/// search ended at its bounds and the faces are few enough.
+fn shallower_by_axes<const N: usize>(difference: &Difference<'_, N>, witness: Witness<N>) -> Witness<N> {
+    let few_facets = |core: &Core<N>| match core {
+        Core::Polytope(polytope) => polytope.facets().len() <= limits::MAX_AXES_FACETS,
+        Core::Point | Core::Segment { .. } | Core::Box { .. } => true,
+    };
+    if !(few_facets(difference.a) && few_facets(difference.b)) {
+        return witness;
+    }
+    let (axes_a, axes_b) = (SeparatingAxes::prepare(difference.a), SeparatingAxes::prepare(difference.b));
+    if axes_a.pairs_with(&axes_b) > limits::MAX_FACE_PAIRS {
+        return witness;
+    }
+    let best = axes_a.separate(&Pose::IDENTITY, &axes_b, difference.a_from_b);
+    let Some(axis) = best.filter(|best| best.separation > witness.separation) else { return witness };
+    let [on_a, on_b] = descent::touching_points(difference, axis.normal, -axis.separation);
+    let middle = (on_a + on_b) * 0.5;
+    let half = axis.normal * (0.5 * axis.separation);
+    Witness { normal: axis.normal, on_a: middle - half, on_b: middle + half, separation: axis.separation }
 }

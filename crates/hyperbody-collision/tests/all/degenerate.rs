@@ -4,10 +4,11 @@
 use std::sync::Arc;
 
 use crate::common::fuzz::check_pair;
-use crate::common::piece;
+use crate::common::oracle::convex;
+use crate::common::{Random, piece};
 use hyperbody_geometry::regular::{Regular, Size};
 use hyperbody_geometry::shape::Piece;
-use hyperbody_geometry::{Polytope, Shape};
+use hyperbody_geometry::{Convex, Polytope, Shape};
 use hyperbody_math::{Pose, Rotation, Vector};
 
 fn cuboid<const N: usize>(half: f64) -> Piece<N> {
@@ -119,6 +120,70 @@ fn extreme_sizes<const N: usize>() {
 #[test]
 fn plates_needles_and_grains() {
     for_every_dimension!(extreme_sizes);
+}
+
+/// Small shapes that all but touch large ones, where the rounding of the large one's corners is a share of the gap, and
+/// tilted so little that bringing them closer shows in the direction only.
+fn small_against_large<const N: usize>() {
+    let top = |shape: &Convex<N>, up: Vector<N>| shape.core.support(up).dot(up) + shape.radius;
+    let wide = Vector::from_fn(|i| 360.0 + 70.0 * i as f64);
+    let large = [
+        piece(Shape::cuboid(wide).expect("a box")),
+        piece(Shape::rounded(Shape::cuboid(wide).expect("a box"), 100.0).expect("rounded")),
+        piece(Shape::capsule(wide[0], 80.0, N - 1).expect("a capsule")),
+    ];
+    for size in [1e-5, 1e-3, 0.03] {
+        let corners = Vector::from_fn(|i| size * (1.0 + 0.3 * i as f64));
+        let small = [piece(Shape::cuboid(corners).expect("a box")), regular(Regular::Simplex, size)];
+        for (a, b) in large.iter().flat_map(|a| small.iter().map(move |b| (a, b))) {
+            let height = top(convex(a), Vector::unit(0));
+            for tilt in [0.0, 3e-8, 9.5e-5, 0.6] {
+                let rotation = Rotation::in_plane(0, N - 1, tilt) * Rotation::in_plane(0, 1, 0.4 * tilt);
+                let depth = top(convex(b), rotation.inverse_rotate(-Vector::unit(0)));
+                for gap in [-1e-3 * size, 0.0, 1e-8, 2e-6, 0.1 * size, 40.0] {
+                    let mut place = Vector::splat(0.1 * size);
+                    place[0] = height + gap + depth;
+                    let pose = Pose::new(rotation, place);
+                    check_pair(&format!("size {size}, tilt {tilt}, gap {gap}"), a, Pose::IDENTITY, b, pose);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn small_shapes_all_but_touch_large_ones() {
+    for_every_dimension!(small_against_large);
+}
+
+/// Segments so parallel that the plane they span is rounding.
+fn all_but_parallel<const N: usize>() {
+    let rod = |half: f64, radius: f64| piece(Shape::<N>::capsule(half, radius, 1).expect("a capsule"));
+    for tilt in [7.5e-8, 2.9e-8, 1e-10] {
+        for beside in [0.0, 0.135, 0.3] {
+            let pose = Pose::new(Rotation::in_plane(0, 1, tilt), Vector::unit(0) * beside);
+            check_pair("long and short", &rod(0.6, 0.07), Pose::IDENTITY, &rod(0.003, 0.07), pose);
+            check_pair("short and long", &rod(0.003, 0.07), Pose::IDENTITY, &rod(0.6, 0.07), pose);
+            check_pair("equal", &rod(0.6, 0.07), Pose::IDENTITY, &rod(0.6, 0.07), pose);
+        }
+    }
+}
+
+#[test]
+fn capsules_all_but_parallel() {
+    for_every_dimension!(all_but_parallel);
+}
+
+/// Boxes about one centre in six dimensions: the penetration search ends at its bounds, separating axes know the depth.
+#[test]
+fn nested_turned_boxes_in_six_dimensions() {
+    let mut random = Random(3);
+    for _ in 0..10 {
+        let half = Vector::<6>::from_fn(|_| random.range(0.4, 1.0));
+        let solid = piece(Shape::cuboid(half).expect("a box"));
+        let turned = Pose::new(random.rotation(3.0), Vector::ZERO);
+        check_pair("about one centre", &solid, Pose::IDENTITY, &solid, turned);
+    }
 }
 
 /// More facets around one than the usual memory has room for: two prisms over polygons of a hundred sides, standing on

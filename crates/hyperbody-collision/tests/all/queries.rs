@@ -1,7 +1,7 @@
 //! Distance, depth, overlap and nearest points, held against certificates by vertices and facets alone: points in the
 //! shapes bound a distance from above, a direction bounds it from below, and where both agree there is nothing left.
 
-use crate::common::fuzz::draw;
+use crate::common::draw::{PLACEMENTS, draw};
 use crate::common::oracle::{Truth, convex};
 use crate::common::{Random, piece};
 use hyperbody_collision::Scratch;
@@ -17,7 +17,7 @@ fn separations_are_certified<const N: usize>() {
     let mut scratch = Scratch::default();
     let (mut near, mut deep) = (0, 0);
     for index in 0..400 {
-        let pair = draw::<N>(17, index, 30.0);
+        let pair = draw::<N>(17, PLACEMENTS * index, 30.0);
         let truth = Truth::new(convex(&pair.a), &pair.pose_a, convex(&pair.b), &pair.pose_b);
         let found = separation_of_pieces(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &mut scratch)
             .expect("convex pieces have a separation");
@@ -63,7 +63,7 @@ fn nearest_points<const N: usize>() {
     let mut scratch = Scratch::default();
     let (mut inside, mut outside) = (0, 0);
     for index in 0..300 {
-        let pair = draw::<N>(23, index, 3.0);
+        let pair = draw::<N>(23, PLACEMENTS * index, 3.0);
         let away = random.log_range(0.02, 1.5) * convex(&pair.a).bounding_radius();
         let point = pair.pose_a.translation + random.direction::<N>() * away;
         let found = project_on_piece(point, &pair.a, &pair.pose_a, &mut scratch).expect("a finite point");

@@ -1,6 +1,6 @@
 //! Shapes that move and turn, against rays on Minkowski sums, closed forms, and many poses on the way.
 
-use crate::common::fuzz::draw;
+use crate::common::draw::{PLACEMENTS, draw};
 use crate::common::oracle::vertices;
 use crate::common::{Random, piece};
 use hyperbody_collision::query::{
@@ -22,7 +22,7 @@ fn balls_meet_as_rays_meet_rounded_shapes<const N: usize>() {
     let mut random = Random(11 + N as u64);
     let (mut hits, mut misses) = (0, 0);
     for index in 0..300 {
-        let pair = draw::<N>(41, index, 2.0);
+        let pair = draw::<N>(41, PLACEMENTS * index, 2.0);
         let Piece::Convex(target) = &pair.a else { continue };
         let radius = random.range(0.05, 0.5);
         let ball = Shape::ball(radius).expect("a ball");
@@ -136,7 +136,7 @@ fn turning_shapes_touch_when_said<const N: usize>() {
     let mut scratch = Scratch::default();
     let (mut hits, mut misses) = (0, 0);
     for index in 0..250 {
-        let pair = draw::<N>(47, index, 2.0);
+        let pair = draw::<N>(47, PLACEMENTS * index, 2.0);
         let (Piece::Convex(a), Piece::Convex(b)) = (&pair.a, &pair.b) else { continue };
         let scale = a.bounding_radius() + b.bounding_radius();
         let mut start = pair.pose_a;

@@ -1,21 +1,24 @@
-//! Random pairs of every kind and size, and what a contact of theirs must satisfy.
+//! What the contact of a random pair, and its distance or depth, must satisfy.
 
 use hyperbody_collision::detect::SeparatingAxes;
 use hyperbody_collision::query::{pieces_overlap, separation_of_pieces};
 use hyperbody_collision::{Effort, Manifold, PairCache, Scratch, collide, limits, max_points};
-use hyperbody_geometry::regular::{Regular, Size};
+use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_geometry::{Core, Polytope, Shape};
-use hyperbody_math::{Pose, Rotation, Vector};
-use std::sync::Arc;
+use hyperbody_math::Pose;
+use std::cell::OnceCell;
 
+use super::Random;
+use super::draw::{Pair, Shapes, draw_of, kind};
+use super::half_spaces;
 use super::oracle::{Truth, convex};
-use super::{Random, piece};
 
 /// The worst of everything that was looked at.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Report {
     pub pairs: u64,
+    /// Those of a shape and a half-space, all of which are compared with the shape's vertices.
+    pub half_spaces: u64,
     pub touching: u64,
     pub overlapping: u64,
     /// Pairs whose depth was compared with the hull of all differences.
@@ -47,6 +50,7 @@ pub struct Report {
 impl Report {
     pub fn merge(&mut self, other: &Self) {
         self.pairs += other.pairs;
+        self.half_spaces += other.half_spaces;
         self.touching += other.touching;
         self.overlapping += other.overlapping;
         self.depths_compared += other.depths_compared;
@@ -77,158 +81,31 @@ pub struct Plan {
     pub spread: f64,
 }
 
-fn random_size(random: &mut Random, spread: f64) -> f64 {
-    random.log_range(1.0 / spread, spread)
-}
-
-fn random_polytope<const N: usize>(random: &mut Random, size: f64) -> Option<Polytope<N>> {
-    let kind = random.below(4);
-    let mut points: Vec<Vector<N>> = Vec::new();
-    match kind {
-        // A regular polytope.
-        3 => {
-            let regular = match random.below(if N == 4 { 4 } else { 3 }) {
-                0 => Regular::Simplex,
-                1 => Regular::CrossPolytope,
-                2 => Regular::Cube,
-                _ => Regular::Cell24,
-            };
-            let solid = regular.polytope::<N>(Size::Circumradius(size)).ok()?;
-            points.extend_from_slice(solid.vertices());
-        }
-        // A few points on a sphere.
-        0 => points.extend((0..N + 1 + random.below(N + 4)).map(|_| random.direction::<N>() * size)),
-        // A cross-polytope stretched along its axes.
-        1 => {
-            for axis in 0..N {
-                let reach = size * random.range(0.3, 1.0);
-                points.extend([Vector::unit(axis) * reach, -Vector::unit(axis) * reach]);
-            }
-        }
-        // A grid: many points, many coplanar.
-        _ => points.extend((0..3 * N).map(|_| Vector::from_fn(|_| size * (random.below(3) as f64 - 1.0)))),
-    }
-    if random.below(6) == 0 {
-        let axis = random.below(N);
-        points.iter_mut().for_each(|p| p[axis] *= 1e-2);
-    }
-    Polytope::from_points(&points).ok()
-}
-
-fn random_piece<const N: usize>(random: &mut Random, size: f64) -> Piece<N> {
-    let cuboid = |random: &mut Random| {
-        let flat = random.below(6) == 0;
-        let half = Vector::from_fn(|_| size * if flat { random.log_range(1e-3, 1.0) } else { random.range(0.2, 1.0) });
-        Shape::cuboid(half).expect("half-extents in range")
-    };
-    let polytope = |random: &mut Random| {
-        // A hull can fail on a draw of coplanar points; a box never does.
-        match random_polytope(random, size) {
-            Some(polytope) => Shape::polytope(Arc::new(polytope)).expect("a solid polytope"),
-            None => cuboid(random),
-        }
-    };
-    let shape = match random.below(8) {
-        0 => Shape::ball(size),
-        1 => Shape::capsule(size * random.range(0.1, 1.0), size * random.range(0.05, 1.0), random.below(N)),
-        2 => {
-            let core = if random.below(2) == 0 { cuboid(random) } else { polytope(random) };
-            Shape::rounded(core, size * random.range(0.01, 0.3))
-        }
-        3..=5 => Ok(cuboid(random)),
-        _ => Ok(polytope(random)),
-    };
-    piece(shape.expect("lengths in range"))
-}
-
-fn random_rotation<const N: usize>(random: &mut Random) -> Rotation<N> {
-    match random.below(5) {
-        0 => Rotation::IDENTITY,
-        1 => Rotation::in_plane(0, 1, std::f64::consts::FRAC_PI_2),
-        2 => random.rotation(1e-4),
-        _ => random.rotation(3.0),
-    }
-}
-
-/// Places b so that the pair is anywhere between deep and apart, with a liking for the exact coincidences.
-fn place<const N: usize>(random: &mut Random, a: &Piece<N>, b: &Piece<N>, small: f64) -> (Pose<N>, Pose<N>) {
-    let mut pose_a = Pose::new(random_rotation(random), random.vector(1.0));
-    if random.below(3) == 0 {
-        pose_a = Pose::IDENTITY;
-    }
-    let mut pose_b = Pose::new(random_rotation(random), pose_a.translation);
-    match random.below(8) {
-        // Identical poses, and the same place with another rotation.
-        0 => return (pose_a, pose_a),
-        1 => return (pose_a, pose_b),
-        _ => {}
-    }
-    if random.below(3) == 0 {
-        pose_b.rotation = pose_a.rotation;
-    }
-    // Off to a side, then along a direction until the gap along it is as drawn.
-    let n = if random.below(3) == 0 {
-        pose_a.rotation.rotate(Vector::unit(random.below(N)))
-    } else {
-        random.direction::<N>()
-    };
-    let reach = convex(a).bounding_radius().min(convex(b).bounding_radius());
-    if random.below(2) == 0 {
-        pose_b.translation += random.vector(0.5 * reach);
-    }
-    let truth = Truth::new(convex(a), &pose_a, convex(b), &pose_b);
-    let gap = match random.below(5) {
-        0 => 0.0,
-        1 => random.range(-1e-2, 1e-2) * small,
-        2 => -random.log_range(1e-9, 1e-3) * small,
-        _ => random.range(-1.0, 0.1) * small,
-    };
-    pose_b.translation += n * (gap - truth.separation(n) + truth.rounding);
-    (pose_a, pose_b)
-}
-
-/// A drawn pair.
-pub struct Pair<const N: usize> {
-    pub a: Piece<N>,
-    pub b: Piece<N>,
-    pub pose_a: Pose<N>,
-    pub pose_b: Pose<N>,
-    /// Says which draw it is and what was drawn.
-    pub name: String,
-    /// The lesser bounding radius.
-    pub small: f64,
-    /// For whatever else the draw decides.
-    pub random: Random,
-}
-
-/// The pair of the given number: the same for ever.
-pub fn draw<const N: usize>(seed: u64, index: u64, spread: f64) -> Pair<N> {
-    let mut random = Random(seed.wrapping_mul(0x9e37_79b9).wrapping_add(index));
-    let size_a = random_size(&mut random, spread);
-    let size_b = if random.below(2) == 0 { size_a } else { random_size(&mut random, spread) };
-    let a = random_piece::<N>(&mut random, size_a);
-    let b = if random.below(6) == 0 { a.clone() } else { random_piece::<N>(&mut random, size_b) };
-    let small = convex(&a).bounding_radius().min(convex(&b).bounding_radius());
-    let (pose_a, pose_b) = place(&mut random, &a, &b, small);
-    let name = format!("N = {N}, seed {seed}, pair {index}, {} and {}", kind(&a), kind(&b));
-    Pair { a, b, pose_a, pose_b, name, small, random }
-}
-
 /// Draws pairs and checks them; the panic names the draw.
 pub fn run<const N: usize>(plan: Plan) -> Report {
     let mut report = Report::default();
-    let mut scratch = Scratch::default();
+    let (mut shapes, mut scratch) = (None, Scratch::default());
     for index in 0..plan.pairs {
-        report.merge(&check_drawn::<N>(plan, index, &mut scratch));
+        report.merge(&check_drawn::<N>(plan, index, &mut shapes, &mut scratch));
     }
     report.effort = scratch.effort();
     report
 }
 
-/// Checks the pair of the given number.
-pub fn check_drawn<const N: usize>(plan: Plan, index: u64, scratch: &mut Scratch<N>) -> Report {
-    let Pair { a, b, pose_a, pose_b, name, small, mut random } = draw::<N>(plan.seed, index, plan.spread);
-    Drawn { a: &a, b: &b, pose_a, pose_b, name, small, plan }.check(&mut random, scratch)
+/// Checks the pair of the given number. One in eight is a shape and a half-space. `shapes` are those of the pair before.
+pub fn check_drawn<const N: usize>(
+    plan: Plan,
+    index: u64,
+    shapes: &mut Option<Shapes<N>>,
+    scratch: &mut Scratch<N>,
+) -> Report {
+    let of_this = Shapes::of(shapes.take(), plan.seed, index, plan.spread);
+    let shapes = shapes.insert(of_this);
+    if index % 8 == 7 {
+        return half_spaces::check_drawn::<N>(&shapes.a, plan, index, scratch);
+    }
+    let Pair { a, b, pose_a, pose_b, name, small, mut random } = draw_of::<N>(shapes, plan.seed, index);
+    Drawn { a: &a, b: &b, axes: &shapes.axes, pose_a, pose_b, name, small, plan }.check(&mut random, scratch)
 }
 
 /// Checks one pair that was not drawn, with all that is asked of drawn ones.
@@ -236,24 +113,14 @@ pub fn check_pair<const N: usize>(name: &str, a: &Piece<N>, pose_a: Pose<N>, b: 
     let small = convex(a).bounding_radius().min(convex(b).bounding_radius());
     let plan = Plan { pairs: 1, seed: 1, hull_points: 300, face_pairs: 3000, spread: 1.0 };
     let name = format!("N = {N}, {name}, {} and {}", kind(a), kind(b));
-    Drawn { a, b, pose_a, pose_b, name, small, plan }.check(&mut Random(1), &mut Scratch::default())
-}
-
-fn kind<const N: usize>(piece: &Piece<N>) -> String {
-    let core = match &convex(piece).core {
-        Core::Point => "point".to_owned(),
-        Core::Segment { half } => format!("segment {:?}", half.0),
-        Core::Box { half_extents } => format!("box {:?}", half_extents.0),
-        Core::Polytope(polytope) => {
-            format!("polytope of {} vertices, {} facets", polytope.vertices().len(), polytope.facets().len())
-        }
-    };
-    format!("{core} rounded by {}", convex(piece).radius)
+    let axes = Default::default();
+    Drawn { a, b, axes: &axes, pose_a, pose_b, name, small, plan }.check(&mut Random(1), &mut Scratch::default())
 }
 
 struct Drawn<'a, const N: usize> {
     a: &'a Piece<N>,
     b: &'a Piece<N>,
+    axes: &'a [OnceCell<SeparatingAxes<N>>; 2],
     pose_a: Pose<N>,
     pose_b: Pose<N>,
     name: String,
@@ -367,16 +234,27 @@ impl<const N: usize> Drawn<'_, N> {
         }
         let mut least = truth.least_depth_nearby(random, 4);
         report.depths_by_descent += 1;
-        let (axes_a, axes_b) = (SeparatingAxes::of_core(&truth.a.clone()), SeparatingAxes::of_core(&truth.b.clone()));
-        let exact = axes_a.pairs_with(&axes_b) <= self.plan.face_pairs;
-        if exact && let Some(axis) = axes_a.separate(&self.pose_a, &axes_b, &self.pose_b) {
+        if let Some(by_axes) = self.depth_by_axes(truth) {
             report.depths_by_axes += 1;
-            let by_axes = -axis.separation;
             assert!(depth >= by_axes - rounding, "{name}: depth {depth}, by separating axes {by_axes}");
             least = least.min(by_axes);
         }
         report.query_excess = report.query_excess.max((depth - least) / truth.scale);
         assert!(depth <= least + rounding, "{name}: depth {depth}, but {least} is possible");
+    }
+
+    /// The least depth of the cores by the separating axes of all pairs of faces, if they are few enough.
+    fn depth_by_axes(&self, truth: &Truth<'_, N>) -> Option<f64> {
+        // With so many facets there are too many pairs in any case, and listing the faces takes time.
+        if facet_count(&truth.a.core) * facet_count(&truth.b.core) > 1000 {
+            return None;
+        }
+        let axes_a = self.axes[0].get_or_init(|| SeparatingAxes::of_core(truth.a));
+        let axes_b = self.axes[1].get_or_init(|| SeparatingAxes::of_core(truth.b));
+        if axes_a.pairs_with(axes_b) > self.plan.face_pairs {
+            return None;
+        }
+        axes_a.separate(&self.pose_a, axes_b, &self.pose_b).map(|axis| -axis.separation)
     }
 
     fn judge_depth(&self, truth: &Truth<'_, N>, depth: f64, report: &mut Report) {
@@ -390,6 +268,14 @@ impl<const N: usize> Drawn<'_, N> {
         report.depth_excess = report.depth_excess.max((depth - least - rounding) / allowed);
         assert!(depth >= least - rounding, "{}: depth {depth}, least possible {least}", self.name);
         assert!(depth <= least + allowed + rounding, "{}: depth {depth}, least possible {least}", self.name);
+    }
+}
+
+fn facet_count<const N: usize>(core: &Core<N>) -> usize {
+    match core {
+        Core::Point | Core::Segment { .. } => 2,
+        Core::Box { .. } => 2 * N,
+        Core::Polytope(polytope) => polytope.facets().len(),
     }
 }
 

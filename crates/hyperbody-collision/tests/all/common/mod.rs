@@ -1,7 +1,9 @@
 //! A small seeded generator and random poses, shared by the tests of this crate.
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
+pub mod draw;
 pub mod fuzz;
+pub mod half_spaces;
 pub mod oracle;
 
 use hyperbody_geometry::Shape;

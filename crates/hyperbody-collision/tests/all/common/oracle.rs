@@ -133,7 +133,8 @@ impl<'a, const N: usize> Truth<'a, N> {
     }
 }
 
-fn outside<const N: usize>(core: &Core<N>, p: Vector<N>) -> f64 {
+/// How far a point in the frame of a core is outside it, at least; minus the depth inside those with an inside.
+pub fn outside<const N: usize>(core: &Core<N>, p: Vector<N>) -> f64 {
     match core {
         Core::Point => p.norm(),
         Core::Segment { half } => {
