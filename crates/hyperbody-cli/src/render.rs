@@ -1,6 +1,7 @@
 //! `hyperbody render`: pictures, films and sheets of slices, without a window.
 
 pub(crate) mod arguments;
+mod eye;
 mod film;
 mod mp4;
 mod plan;

@@ -1,7 +1,7 @@
 //! Being told to stop: files in the making are removed, a program that helps is stopped as well, and the exit status says why.
 
 use std::io;
-use std::process::{Child, ExitStatus};
+use std::process::{Child, ChildStderr, ChildStdin, Command, ExitStatus};
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 use std::time::Duration;
 
@@ -17,9 +17,14 @@ fn helper() -> MutexGuard<'static, Option<Child>> {
     HELPER.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Takes charge of a program that helps.
-pub(crate) fn adopt(child: Child) {
-    *helper() = Some(child);
+/// Starts a program that helps, and gives the ends of its input and of its errors. From its first moment on it is stopped with
+/// this one.
+pub(crate) fn start_helper(command: &mut Command) -> io::Result<(Option<ChildStdin>, Option<ChildStderr>)> {
+    let mut helper = helper();
+    let mut child = command.spawn()?;
+    let ends = (child.stdin.take(), child.stderr.take());
+    *helper = Some(child);
+    Ok(ends)
 }
 
 /// Waits until the program that helps has ended. Another thread can stop it meanwhile.

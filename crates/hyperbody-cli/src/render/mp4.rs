@@ -55,9 +55,9 @@ impl<'a> Mp4<'a> {
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         target.begin();
-        let mut child = command.spawn().map_err(|error| target.unwritable(&format!("ffmpeg: {error}")))?;
-        let pictures = child.stdin.take();
-        let complaint = child.stderr.take().map(|mut stderr| {
+        let (pictures, errors) =
+            stop::start_helper(&mut command).map_err(|error| target.unwritable(&format!("ffmpeg: {error}")))?;
+        let complaint = errors.map(|mut stderr| {
             std::thread::spawn(move || {
                 let mut text = Vec::new();
                 // The rest is read too, or ffmpeg would wait for a reader.
@@ -66,7 +66,6 @@ impl<'a> Mp4<'a> {
                 String::from_utf8_lossy(&text).into_owned()
             })
         });
-        stop::adopt(child);
         Ok(Self { target, pictures, complaint, finished: false })
     }
 

@@ -5,14 +5,13 @@ use std::sync::Mutex;
 
 use hyperbody::math::{Dim, EvenAlgebra, Vector, planes};
 use hyperbody_render::picture::parts;
-use hyperbody_render::{Bodies, Camera, Image, Settings, Slice, Viewpoint, frame_from, render as draw, strips_share};
+use hyperbody_render::{Camera, Image, Settings, Slice, render as draw, strips_share};
 use hyperbody_scene::recording::Frame;
 use hyperbody_scene::{DimensionVisitor, visit_dimension};
 
 use super::arguments::{self, Assignments, RenderArguments};
 use super::timeline::Timeline;
 use crate::failure::Failure;
-use crate::numbers::shortened;
 use crate::output::number;
 use crate::progress::Progress;
 
@@ -26,7 +25,7 @@ pub(super) struct SliceAt {
 }
 
 impl SliceAt {
-    fn in_dimension<const N: usize>(&self) -> Slice<N> {
+    pub(super) fn in_dimension<const N: usize>(&self) -> Slice<N> {
         let point = Vector::from_fn(|axis| self.point.get(axis).copied().unwrap_or(0.0));
         self.turns.iter().fold(Slice::natural().moved(point), |slice, &(i, j, angle)| slice.turned(i, j, angle))
     }
@@ -38,7 +37,7 @@ pub(super) type Sight = (Frame, SliceAt);
 /// What the arguments say about how to look.
 #[derive(Clone)]
 pub(super) struct View<'a> {
-    arguments: &'a RenderArguments,
+    pub(super) arguments: &'a RenderArguments,
     size: (u32, u32),
     /// Where the slice is by axes, at the start and at the end of a film, m.
     points: [Vec<f64>; 2],
@@ -183,16 +182,10 @@ impl<'a> View<'a> {
     }
 
     /// The share of the width that strips take up, and width over height.
-    fn room(&self, dimension: usize) -> (f64, f64) {
+    pub(super) fn room(&self, dimension: usize) -> (f64, f64) {
         let (width, height) = self.size;
         let share = if self.strip { strips_share(dimension, width, height) } else { 0.0 };
         (share, f64::from(width) / f64::from(height))
-    }
-
-    /// The camera for all of these.
-    pub(super) fn camera(&self, timeline: &Timeline, sights: &[Sight]) -> Result<Camera, Failure> {
-        visit_dimension(timeline.dimension(), ChooseCamera { view: self, timeline, sights })
-            .unwrap_or_else(|| no_such(timeline))
     }
 
     fn caption(&self, timeline: &Timeline, frame: &Frame, share: f64) -> Vec<String> {
@@ -214,43 +207,6 @@ impl<'a> View<'a> {
             second += &format!("   {}{} turned {degrees}°", planes::AXIS_NAMES[i], planes::AXIS_NAMES[j]);
         }
         vec![format!("{}, {dimension}D", timeline.name()), second]
-    }
-
-    /// The camera as the options say it, chosen where they are silent.
-    fn chosen<const N: usize>(&self, sights: &[(Bodies<N>, Slice<N>)], aspect: f64) -> Camera {
-        let mut viewpoint = Viewpoint::natural(N);
-        viewpoint.target = self.arguments.look_at.as_ref().and_then(|list| Vector::from_slice(&list.0));
-        if let Some(degrees) = self.arguments.field_of_view {
-            viewpoint.field_of_view = degrees.to_radians();
-        }
-        let Some(list) = &self.arguments.camera else { return frame_from(sights, aspect, &viewpoint) };
-        let (azimuth, elevation) = (list.0[0].to_radians(), list.0[1].to_radians());
-        match list.0.get(2) {
-            // Whoever says the distance as well walks around one point, whatever the angles.
-            Some(&distance) => {
-                let Camera { target, up, field_of_view, .. } = frame_from(sights, aspect, &viewpoint);
-                Camera { field_of_view, ..Camera::around(target, up, distance, azimuth, elevation) }
-            }
-            None => frame_from(sights, aspect, &Viewpoint { azimuth, elevation, ..viewpoint }),
-        }
-    }
-
-    /// Says which half-spaces are not to be seen because the slice lies within them.
-    fn warn_of_half_spaces<const N: usize>(&self, timeline: &Timeline, sights: &[(Bodies<N>, Slice<N>)]) {
-        let mut around: Vec<usize> =
-            sights.iter().flat_map(|(bodies, slice)| bodies.half_spaces_around(slice)).collect();
-        around.sort_unstable();
-        around.dedup();
-        let names: Vec<String> =
-            around.iter().take(3).map(|&body| format!("\"{}\"", shortened(timeline.body_name(body)))).collect();
-        if !names.is_empty() {
-            let more = if around.len() > names.len() { " and others" } else { "" };
-            eprintln!(
-                "warning: the slice lies wholly within the half-space {}{more}; from within there is nothing of it to see, \
-                 and it is left out (--slice moves the slice)",
-                names.join(", ")
-            );
-        }
     }
 }
 
@@ -296,7 +252,7 @@ fn mix(from: f64, to: f64, share: f64) -> f64 {
     from + (to - from) * share
 }
 
-fn no_such<T>(timeline: &Timeline) -> Result<T, Failure> {
+pub(super) fn no_such<T>(timeline: &Timeline) -> Result<T, Failure> {
     Err(Failure::Work(format!("no pictures in {} dimensions", timeline.dimension())))
 }
 
@@ -338,30 +294,6 @@ impl Drawing {
         let (slice, caption) = (view.slice(share), view.caption(timeline, frame, share));
         let task = Draw { view, timeline, frame, slice, camera, caption, tell: &tell };
         visit_dimension(timeline.dimension(), task).unwrap_or_else(|| no_such(timeline))
-    }
-}
-
-/// Choosing a camera, in the dimension of the world.
-struct ChooseCamera<'a> {
-    view: &'a View<'a>,
-    timeline: &'a Timeline,
-    sights: &'a [Sight],
-}
-
-impl DimensionVisitor for ChooseCamera<'_> {
-    type Output = Result<Camera, Failure>;
-
-    fn visit<const N: usize>(self) -> Self::Output
-    where
-        Dim<N>: EvenAlgebra,
-    {
-        let mut sights = Vec::with_capacity(self.sights.len());
-        for (frame, slice) in self.sights {
-            sights.push((self.timeline.bodies::<N>(frame)?, slice.in_dimension::<N>()));
-        }
-        let (share, aspect) = self.view.room(N);
-        self.view.warn_of_half_spaces(self.timeline, &sights);
-        Ok(self.view.chosen(&sights, aspect * (1.0 - share)))
     }
 }
 
