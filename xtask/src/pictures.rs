@@ -53,7 +53,7 @@ const SHOWN: [(&str, &str, (u32, u32), &str); 6] = [
     ),
     ("dice4d.png", "dice4d", (1200, 560), "--at 1 --slice w=-0.5 --camera 30,16,7.4 --quality 8"),
     ("sheet-w.png", "dice4d", (320, 180), "--at 3 --sheet w=-1..1,6 --columns 3 --camera 30,16,8"),
-    ("sheet-t.png", "pit4d", (320, 180), "--sheet t=0..2,6 --columns 3 --no-strip"),
+    ("sheet-t.png", "pit4d", (320, 180), "--sheet t=0..2,6 --columns 3"),
     (
         "through-w.gif",
         "dice4d",
