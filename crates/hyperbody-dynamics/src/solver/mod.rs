@@ -113,6 +113,7 @@ impl<const N: usize> Solver<N> {
         self.make_rows(input, h);
         self.joints.collect(input, &self.bodies, &self.gyros, h);
         self.run_substeps(input, h);
+        self.take_back_excess();
         self.store_impulses(input);
     }
 
@@ -323,6 +324,25 @@ impl<const N: usize> Solver<N> {
         }
         for gyro in &mut self.gyros {
             gyro.turn(&self.bodies[gyro.body], &mut self.state, h, elapsed);
+        }
+    }
+
+    /// Takes from the spins what contacts added to the angular momentum because bodies moved on within the step.
+    fn take_back_excess(&mut self) {
+        for block in &self.contacts.blocks {
+            for (lane, (&a, &b)) in block.bodies_a.iter().zip(&block.bodies_b).enumerate() {
+                if a == 0 || b == 0 {
+                    continue;
+                }
+                let excess = contacts::excess::<N>(block, &self.contacts.rows, lane);
+                for row in [a as usize, b as usize] {
+                    let change = self.bodies[row].lever(&(excess * -0.5));
+                    let spin = row * Sizes::<N>::STATE + N;
+                    for (value, change) in self.state[spin..spin + Sizes::<N>::K].iter_mut().zip(change) {
+                        *value += change as Real;
+                    }
+                }
+            }
         }
     }
 

@@ -26,11 +26,11 @@ fn relative<const N: usize>(world: &World<N>, joint: JointHandle) -> Pose<N> {
 }
 
 /// Pushed and turned at random for a few seconds, a joint keeps what it says it keeps, moves in all that it leaves free, and
-/// the momentum of the two stays what the pushes gave.
+/// the momentum and the angular momentum of the two stay what the pushes gave.
 fn keeps_and_frees<const N: usize>(name: &str, def: impl Fn(BodyHandle, BodyHandle) -> JointDef<N>) {
     let (mut world, bodies, joint) = pair(def);
     let mut random = Random(17);
-    let mut given = Vector::<N>::ZERO;
+    let (mut given, mut given_spin) = (Vector::<N>::ZERO, Bivector::<N>::ZERO);
     let mut moved = [0.0_f64; N];
     let mut turned = vec![0.0_f64; planes::count(N)];
     for step in 0..240 {
@@ -42,6 +42,7 @@ fn keeps_and_frees<const N: usize>(name: &str, def: impl Fn(BodyHandle, BodyHand
                 let at = body.as_ref().position() + offset;
                 body.apply_impulse_at(impulse, at).unwrap();
                 given += impulse;
+                given_spin += Bivector::wedge(at, impulse);
             }
         }
         world.step();
@@ -72,6 +73,8 @@ fn keeps_and_frees<const N: usize>(name: &str, def: impl Fn(BodyHandle, BodyHand
     }
     let error = (world.momentum() - given).norm();
     assert!(error < 1e-5, "{name} in {N}D: the joint changed the momentum by {error}");
+    let error = (world.angular_momentum() - given_spin).norm();
+    assert!(error < 1e-5, "{name} in {N}D: the joint changed the angular momentum by {error}");
 }
 
 fn all_kinds<const N: usize>() {

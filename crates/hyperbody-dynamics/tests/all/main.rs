@@ -17,6 +17,7 @@ mod joint_hand;
 mod joint_kinds;
 mod joint_loads;
 mod materials;
+mod momenta;
 mod queries;
 mod queries_shapes;
 mod random_operations;

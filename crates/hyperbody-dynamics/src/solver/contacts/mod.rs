@@ -9,6 +9,7 @@
 //!
 //! The rows of a group are lanes side by side in one flat array, in the order in which solving reads them.
 
+mod excess;
 mod layout;
 mod normal;
 mod pairing;
@@ -19,6 +20,7 @@ use super::bodies::SolverBody;
 use super::colours::{ActiveContact, Group};
 use super::lanes::{Lanes, WIDTH};
 use crate::pairs::Surface;
+pub(crate) use excess::excess;
 pub(crate) use layout::Layout;
 pub(crate) use prepare::{Prepare, store};
 pub(crate) use solve::{PassTimes, Passes};

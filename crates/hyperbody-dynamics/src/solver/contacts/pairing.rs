@@ -99,6 +99,12 @@ impl<const N: usize> Pairing<N> {
         sum_b - sum_a
     }
 
+    /// What b's centre has been displaced by against a's.
+    #[inline(always)]
+    pub(super) fn between_centres(&self) -> [Lanes; N] {
+        std::array::from_fn(|i| self.linear_b[i] * self.mass_b - self.linear_a[i] * self.mass_a)
+    }
+
     #[inline(always)]
     pub(super) fn apply_linear(&mut self, direction: &[Lanes], impulse: Lanes) {
         let (a, b) = (impulse * self.mass_a, impulse * self.mass_b);

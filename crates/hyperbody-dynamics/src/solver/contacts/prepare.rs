@@ -120,6 +120,7 @@ impl<const N: usize> Lane<'_, N> {
         self.set(Layout::<N>::STIFFENER, share * RIGID_SHARE);
         for i in 0..N {
             self.set(Layout::<N>::NORMAL + i, contact.manifold.normal[i]);
+            self.set(Layout::<N>::CENTRE_VELOCITY + i, self.b.velocity[i] - self.a.velocity[i]);
         }
     }
 

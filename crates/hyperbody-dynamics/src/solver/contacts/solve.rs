@@ -78,6 +78,8 @@ impl<const N: usize> Passes<N> {
             let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
             let (response, resistance) = rest.split_at_mut(block.points * (block.points + 1) / 2);
             let displacement = Pairing::<N>::gather_displacement(block, head, state);
+            // Before the move warm starting has just applied all of it.
+            let before = if times.push { [Lanes::ZERO; N] } else { Self::impulse(head, points) };
             // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
             // load, so that a sliding body loses exactly μ times its weight.
             if times.push {
@@ -92,6 +94,7 @@ impl<const N: usize> Passes<N> {
                 }
                 Self::rub(block, head, points, resistance, &mut p, times);
             }
+            Self::note_excess(head, points, &before, &displacement, times);
             p.scatter(block, state);
         }
     }
@@ -117,7 +120,7 @@ impl<const N: usize> Passes<N> {
 
     /// Sum of the impulses of the points.
     #[inline(always)]
-    fn load(points: &[Lanes]) -> Lanes {
+    pub(super) fn load(points: &[Lanes]) -> Lanes {
         let mut load = Lanes::ZERO;
         for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
             load += row[Layout::<N>::POINT_IMPULSE];
@@ -381,6 +384,8 @@ impl<const N: usize> Passes<N> {
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
             let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
             let response = &rest[..block.points * (block.points + 1) / 2];
+            let displacement = Pairing::<N>::gather_displacement(block, head, state);
+            let before = Self::impulse(head, points);
             let restitution = head[Layout::<N>::RESTITUTION];
             let (mut starts, mut accelerations, mut changes) = ([zero; N], [zero; N], [zero; N]);
             for (t, row) in Self::field(block, head).enumerate() {
@@ -416,6 +421,7 @@ impl<const N: usize> Passes<N> {
                 row[Layout::<N>::POINT_STEP_IMPULSE] += problem.impulse[index] - problem.held[index];
             }
             Self::apply_solution(block, head, points, &mut p, problem);
+            Self::note_excess(head, points, &before, &displacement, times);
             p.scatter(block, state);
         }
     }

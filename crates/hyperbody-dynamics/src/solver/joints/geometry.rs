@@ -108,6 +108,16 @@ impl<const N: usize> Geometry<N> {
         }
     }
 
+    /// Where the impulse between two anchors acts, as offsets from both centres. Between two moving bodies it is one point,
+    /// midway, so that angular momentum is kept to rounding however far apart the anchors are; a fixed anchor stays where it is.
+    fn meeting_point(&self, a: &SolverBody<N>, b: &SolverBody<N>) -> (Vector<N>, Vector<N>) {
+        if a.inverse_sqrt_mass == 0.0 || b.inverse_sqrt_mass == 0.0 {
+            return (self.offset_a, self.offset_b);
+        }
+        let half = self.gap * 0.5;
+        (self.offset_a + half, self.offset_b - half)
+    }
+
     /// Fills what a row needs at this place.
     pub(super) fn fill(&self, row: &mut Row<N>, a: &Place<N>, b: &Place<N>, bodies: &[SolverBody<N>]) {
         let (body_a, body_b) = (&bodies[a.row], &bodies[b.row]);
@@ -122,21 +132,26 @@ impl<const N: usize> Geometry<N> {
                 row.arm_b = lever(b, body_b, &plane);
             }
             coordinate => {
-                let (direction, offset_a) = match coordinate {
-                    Coordinate::Point(axis) => (Vector::unit(usize::from(axis)), self.offset_a),
+                let (direction, offset_a, offset_b) = match coordinate {
+                    Coordinate::Point(axis) => {
+                        let (offset_a, offset_b) = self.meeting_point(body_a, body_b);
+                        (Vector::unit(usize::from(axis)), offset_a, offset_b)
+                    }
                     // The axis turns with a: what counts is a's velocity where b's anchor is.
-                    Coordinate::Slide(axis) => (self.axes.column(usize::from(axis)), self.offset_a + self.gap),
-                    _ => (self.gap.try_normalize().unwrap_or(Vector::unit(0)), self.offset_a),
+                    Coordinate::Slide(axis) => {
+                        (self.axes.column(usize::from(axis)), self.offset_a + self.gap, self.offset_b)
+                    }
+                    _ => (self.gap.try_normalize().unwrap_or(Vector::unit(0)), self.offset_a, self.offset_b),
                 };
                 row.direction = direction;
                 let on_a = a.velocity + a.spin.act_on(offset_a);
-                let on_b = b.velocity + b.spin.act_on(self.offset_b);
+                let on_b = b.velocity + b.spin.act_on(offset_b);
                 row.base = direction.dot(on_b - on_a);
                 let on_a = a.acceleration + a.spin_up.act_on(offset_a);
-                let on_b = b.acceleration + b.spin_up.act_on(self.offset_b);
+                let on_b = b.acceleration + b.spin_up.act_on(offset_b);
                 row.acceleration = direction.dot(on_b - on_a);
                 row.arm_a = arm(a, body_a, offset_a, direction);
-                row.arm_b = arm(b, body_b, self.offset_b, direction);
+                row.arm_b = arm(b, body_b, offset_b, direction);
             }
         }
     }
