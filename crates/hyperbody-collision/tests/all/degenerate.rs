@@ -177,8 +177,9 @@ fn capsules_all_but_parallel() {
 /// Boxes about one centre in six dimensions: the penetration search ends at its bounds, separating axes know the depth.
 #[test]
 fn nested_turned_boxes_in_six_dimensions() {
-    let mut random = Random(3);
-    for _ in 0..10 {
+    // With the search alone, six of the first 300 draws got a way out that was too long: these.
+    for seed in [32, 56, 144, 162, 194, 256] {
+        let mut random = Random(seed);
         let half = Vector::<6>::from_fn(|_| random.range(0.4, 1.0));
         let solid = piece(Shape::cuboid(half).expect("a box"));
         let turned = Pose::new(random.rotation(3.0), Vector::ZERO);
