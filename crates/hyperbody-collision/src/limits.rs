@@ -75,7 +75,7 @@ pub const CERTIFIED: f64 = 1e-10;
 /// How far, in parts of their size, cores are pushed into each other to find that direction.
 pub const PUSH: f64 = 1e-6;
 
-/// Bound on the turns of the distance search. The most seen over the fuzzing is a quarter of it.
+/// Bound on the turns of the distance search. The most seen over the fuzzing is less than a third of it.
 pub const MAX_GJK_TURNS: u32 = 128;
 
 /// Two vertices or planes closer than this, in parts of the shapes' size, are one when the difference of two shapes is

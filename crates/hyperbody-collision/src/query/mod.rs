@@ -20,6 +20,7 @@ mod cast;
 mod motion;
 mod project;
 mod separation;
+mod unsure;
 
 pub use cast::{ShapeHit, shape_cast, shape_cast_on_piece, time_of_impact};
 pub use motion::Motion;
