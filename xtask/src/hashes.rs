@@ -1,4 +1,4 @@
-//! The same scene gives the same bits: twice, on one thread and on two, in debug and in release.
+//! The same scene gives the same bits: twice, on one thread and on two, in debug and in release, and from a snapshot.
 
 use std::path::Path;
 use std::process::Command;
@@ -6,7 +6,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use crate::Outcome;
-use crate::process::{build_hyperbody, read};
+use crate::process::{build_hyperbody, cargo, read, run};
 
 /// Long enough that every built-in scene has met its floor.
 const STEPS: &str = "90";
@@ -36,7 +36,7 @@ pub(crate) fn check() -> Outcome {
     }
     if wrong.is_empty() {
         println!("    {} scenes, five runs each: every hash equal", names.len());
-        Ok(())
+        run(&mut cargo(&["run", "--release", "--package", "hyperbody-scene", "--example", "snapshots"]))
     } else {
         Err(format!("runs of one scene differ:\n  {}", wrong.join("\n  ")))
     }

@@ -47,4 +47,4 @@ pub use model::{
 };
 pub use read::{FORMAT, MAX_FILE_BYTES, VERSION};
 pub use shape_file::ShapeFile;
-pub use world::{AnyWorld, BodyState, Planes};
+pub use world::{AnySnapshot, AnyWorld, BodyState, Planes};

@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use hyperbody::math::{Dim, EvenAlgebra, planes};
-use hyperbody::prelude::{Bivector, BodyHandle, Energy, StageTimings, World};
+use hyperbody::prelude::{Bivector, BodyHandle, Energy, Snapshot, StageTimings, World};
 use serde::ser::{Serialize, Serializer};
 
 use crate::build;
@@ -40,6 +40,12 @@ pub struct BodyState {
     pub sleeping: bool,
 }
 
+/// The whole state of an [`AnyWorld`] at one moment; see [`Snapshot`].
+pub struct AnySnapshot {
+    dimension: usize,
+    state: Box<dyn Any + Send>,
+}
+
 /// What a world of any dimension can do.
 trait Simulation: Send {
     fn as_any(&self) -> &dyn Any;
@@ -51,6 +57,9 @@ trait Simulation: Send {
     fn momentum(&self) -> Vec<f64>;
     fn angular_momentum(&self) -> Planes;
     fn state_hash(&self) -> u64;
+    fn snapshot(&self) -> Box<dyn Any + Send>;
+    /// Whether the state was one of this dimension, and is the world's now.
+    fn restore(&mut self, state: &dyn Any) -> bool;
     fn quarantined(&self) -> Vec<usize>;
     fn body_state(&self, index: usize, name: &str) -> Option<BodyState>;
 }
@@ -207,6 +216,24 @@ impl AnyWorld {
         self.simulation.state_hash()
     }
 
+    /// The state as it is now, to go back to.
+    #[must_use]
+    pub fn snapshot(&self) -> AnySnapshot {
+        AnySnapshot { dimension: self.dimension, state: self.simulation.snapshot() }
+    }
+
+    /// Goes back, or on, to a snapshot of a world of the same scene: from here this world does to the bit what that one did.
+    ///
+    /// # Errors
+    /// If the snapshot is of a world of another dimension; this world stays as it is.
+    pub fn restore(&mut self, snapshot: &AnySnapshot) -> Result<(), SceneError> {
+        if self.simulation.restore(snapshot.state.as_ref()) {
+            return Ok(());
+        }
+        let message = format!("of the snapshot is {}, of this world {}", snapshot.dimension, self.dimension);
+        Err(SceneError::value("dimension", message))
+    }
+
     /// Gives the world a clock in seconds, from which [`AnyWorld::timings`] are taken.
     pub fn set_clock(&mut self, clock: Option<fn() -> f64>) {
         self.simulation.set_clock(clock);
@@ -269,6 +296,18 @@ impl<const N: usize> Simulation for Simulated<N> {
 
     fn state_hash(&self) -> u64 {
         self.world.state_hash()
+    }
+
+    fn snapshot(&self) -> Box<dyn Any + Send> {
+        Box::new(self.world.snapshot())
+    }
+
+    fn restore(&mut self, state: &dyn Any) -> bool {
+        let snapshot = state.downcast_ref::<Snapshot<N>>();
+        if let Some(snapshot) = snapshot {
+            self.world.restore(snapshot);
+        }
+        snapshot.is_some()
     }
 
     fn quarantined(&self) -> Vec<usize> {

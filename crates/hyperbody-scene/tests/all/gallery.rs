@@ -55,3 +55,18 @@ fn an_unknown_name_gets_the_nearest() {
     assert_eq!(built_in("stack4").unwrap_err(), "stack4d");
     assert_eq!(built_in("Domino").unwrap_err(), "dominoes3d");
 }
+
+#[test]
+fn a_snapshot_is_good_for_worlds_of_its_dimension_only() {
+    let world = |name: &str| AnyWorld::new(&built_in(name).unwrap(), 1).unwrap();
+    let (mut hello, mut cradle) = (world("hello4d"), world("cradle2d"));
+    hello.step();
+    let snapshot = hello.snapshot();
+    let before = cradle.state_hash();
+    let refused = cradle.restore(&snapshot).unwrap_err().to_string();
+    assert!(refused.contains("of the snapshot is 4, of this world 2"), "{refused}");
+    assert_eq!(cradle.state_hash(), before);
+    let mut other = world("hello4d");
+    other.restore(&snapshot).unwrap();
+    assert_eq!((other.state_hash(), other.step_count()), (hello.state_hash(), 1));
+}
