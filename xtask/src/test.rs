@@ -24,7 +24,7 @@ struct Stage {
     action: fn() -> Outcome,
 }
 
-const STAGES: [Stage; 10] = [
+const STAGES: [Stage; 11] = [
     Stage {
         name: "format",
         component: Some("rustfmt"),
@@ -34,6 +34,7 @@ const STAGES: [Stage; 10] = [
     Stage { name: "lints", component: Some("clippy"), quick: true, action: lints },
     Stage { name: "documentation", component: None, quick: false, action: documentation },
     Stage { name: "tests, debug", component: None, quick: true, action: || cargo_run(&["test", "--workspace"]) },
+    Stage { name: "tour of examples", component: None, quick: false, action: tour },
     Stage { name: "tests, release", component: None, quick: false, action: engine_in_release },
     Stage { name: "generated files", component: None, quick: false, action: scenes::check },
     Stage { name: "pictures", component: None, quick: false, action: pictures::check },
@@ -83,6 +84,10 @@ fn engine_in_release() -> Outcome {
     let packages = ["hyperbody-math", "hyperbody-geometry", "hyperbody-collision"];
     let arguments: Vec<&str> = packages.iter().flat_map(|package| ["--package", package]).collect();
     cargo_run(&[&["test", "--release"], arguments.as_slice()].concat())
+}
+
+fn tour() -> Outcome {
+    cargo_run(&["run", "--quiet", "--package", "hyperbody", "--example", "tour"])
 }
 
 fn documentation() -> Outcome {

@@ -30,6 +30,9 @@
 //! # }
 //! ```
 //!
+//! Every capability in a program of thirty lines that can be run: `cargo run --release -p hyperbody --example tour`, its source
+//! in `examples/tour`.
+//!
 //! | crate | holds |
 //! |---|---|
 //! | [`math`] | vectors, bivectors, rotors, rotations, poses |

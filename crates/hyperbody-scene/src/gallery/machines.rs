@@ -85,7 +85,7 @@ pub(super) fn wrecking_ball_4d() -> Scene {
         for column in 0..4 {
             for depth in 0..2 {
                 let position =
-                    [(f64::from(column) - 1.5) * 1.02, 0.5 + f64::from(row), 0.0, (f64::from(depth) - 0.5) * 1.02];
+                    [(f64::from(column) - 1.5) * 1.02, 0.5 + f64::from(row), 0.0, (f64::from(depth) - 0.3) * 1.02];
                 let brick = Body::new(ShapeSpec::cube(4, 0.5)).named(format!("brick {row} {column} {depth}"));
                 scene.bodies.push(brick.at(position));
             }

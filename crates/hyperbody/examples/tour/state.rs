@@ -1,0 +1,31 @@
+//! The state: going back to it, to the bit.
+
+use hyperbody::prelude::*;
+
+use crate::{Outcome, claim, step_for, world_with_ground};
+
+pub(crate) fn run() -> Outcome {
+    let (mut world, _) = world_with_ground()?;
+    for index in 0..5 {
+        let turn = Rotation::in_plane(0, 3, 0.3 * f64::from(index));
+        let body = BodyDef::new(Shape::cuboid([0.4; 4])?).position([0.0, 1.0 + 1.1 * f64::from(index), 0.0, 0.0]);
+        world.add_body(body.rotation(turn))?;
+    }
+    step_for(&mut world, 0.5);
+
+    let snapshot = world.snapshot();
+    step_for(&mut world, 2.0);
+    let first = world.state_hash();
+    world.restore(&snapshot);
+    claim(world.state_hash() != first, "the world is back at half a second")?;
+    step_for(&mut world, 2.0);
+    claim(world.state_hash() == first, "and goes through the same two seconds again, to the bit")?;
+
+    // The future, tried in another world: what would happen if there were less gravity.
+    let mut other = World::<4>::new(WorldDef { threads: 2, ..WorldDef::default() })?;
+    other.restore(&snapshot);
+    other.set_gravity([0.0, -1.6, 0.0, 0.0])?;
+    step_for(&mut other, 2.0);
+    let height = |world: &World<4>| world.bodies().map(|(_, body)| body.position()[1]).fold(0.0, f64::max);
+    claim(height(&other) > height(&world), "on the moon the pile would still be higher")
+}
