@@ -15,7 +15,10 @@ use hyperbody::prelude::*;
 /// What a program ends with.
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const STOPS: [(&str, &str, fn() -> Outcome); 7] = [
+/// Name, what it shows, program.
+type Stop = (&'static str, &'static str, fn() -> Outcome);
+
+const STOPS: [Stop; 7] = [
     ("bodies", "kinds of bodies, forces, conveyors, led platforms, rest", bodies::run),
     ("contacts", "materials, what touched and how hard, one's own rules", contacts::run),
     ("filters", "who meets whom: groups, pairs, sensors, one-way floors", filters::run),
