@@ -55,6 +55,7 @@ pub mod timings;
 pub mod tuning;
 mod vetting;
 mod waking;
+mod wandering;
 pub mod world;
 
 pub use body::{BodyDef, BodyKind, BodyMut, BodyRef};

@@ -11,8 +11,9 @@ use crate::handle::Arena;
 use crate::pairs::{Carried, Contact, Pair, PairRole};
 use crate::rules::Hook;
 use crate::seams::{SLIDES, is_suspect};
+use crate::wandering::share_of_b;
 use crate::world::{Collider, Motion};
-use crate::{BodyHandle, World};
+use crate::{BodyHandle, BodyKind, World};
 
 /// A pair of bodies that touch, or are about to.
 #[derive(Clone, Copy, Debug)]
@@ -228,6 +229,9 @@ impl<const N: usize> Update<'_, N> {
             let contact = pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b))));
             carry_over(contact, &manifold, self.margin);
             contact.manifold = manifold;
+            if !empty && body_a.kind == BodyKind::Dynamic && body_b.kind == BodyKind::Dynamic {
+                contact.share_of_b = share_of_b(a, b, manifold.normal);
+            }
             record(contact, &a.world_from_collider, &b.world_from_collider);
         }
         pair.summarize();
@@ -378,6 +382,7 @@ fn meet_first<const N: usize>(
         restitution: body_a.material.combined_restitution(&body_b.material),
         resistance: body_a.material.combined_resistance(&body_b.material),
         surface: Vector::ZERO,
+        share_of_b: 0.5,
         manifold: Manifold::default(),
         normal_impulses: [0.0; MAX_POINTS],
         step_impulses: [0.0; MAX_POINTS],

@@ -116,6 +116,8 @@ pub(crate) struct Contact<const N: usize> {
     pub(crate) resistance: (f64, f64),
     /// How b's surface runs against a's, beside what the bodies say, world axes, m/s: asked for by the contact hook.
     pub(crate) surface: Vector<N>,
+    /// Which part of what moving on adds to the angular momentum b takes back; see `wandering`.
+    pub(crate) share_of_b: f64,
     /// The touching points of the last narrow phase.
     pub(crate) manifold: Manifold<N>,
     /// Warm start: normal impulse of each point over one substep, N·s.

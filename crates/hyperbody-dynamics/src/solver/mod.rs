@@ -27,7 +27,7 @@ mod softness;
 mod turning;
 mod width;
 
-use hyperbody_math::Vector;
+use hyperbody_math::{Bivector, Vector};
 
 use crate::BodyKind;
 use crate::body::Body;
@@ -113,7 +113,6 @@ impl<const N: usize> Solver<N> {
         self.make_rows(input, h);
         self.joints.collect(input, &self.bodies, &self.gyros, h);
         self.run_substeps(input, h);
-        self.take_back_excess();
         self.store_impulses(input);
     }
 
@@ -155,7 +154,7 @@ impl<const N: usize> Solver<N> {
         }
         if let Some(first) = self.bodies.first_mut() {
             first.velocity = Vector::ZERO;
-            first.angular_velocity = hyperbody_math::Bivector::ZERO;
+            first.angular_velocity = Bivector::ZERO;
             first.slot = u32::MAX;
             first.inverse_sqrt_mass = 0.0;
             first.surface = Vector::ZERO;
@@ -327,25 +326,7 @@ impl<const N: usize> Solver<N> {
         }
     }
 
-    /// Takes from the spins what contacts added to the angular momentum because bodies moved on within the step.
-    fn take_back_excess(&mut self) {
-        for block in &self.contacts.blocks {
-            for (lane, (&a, &b)) in block.bodies_a.iter().zip(&block.bodies_b).enumerate() {
-                if a == 0 || b == 0 {
-                    continue;
-                }
-                let excess = contacts::excess::<N>(block, &self.contacts.rows, lane);
-                for row in [a as usize, b as usize] {
-                    let change = self.bodies[row].lever(&(excess * -0.5));
-                    let spin = row * Sizes::<N>::STATE + N;
-                    for (value, change) in self.state[spin..spin + Sizes::<N>::K].iter_mut().zip(change) {
-                        *value += change as Real;
-                    }
-                }
-            }
-        }
-    }
-
+    /// Impulses to start the next step from; and from the spins what contacts added to the angular momentum.
     fn store_impulses(&mut self, input: &mut SolverInput<'_, N>) {
         for block in &self.contacts.blocks {
             let rows = &self.contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
@@ -356,10 +337,25 @@ impl<const N: usize> Solver<N> {
                 let pair = input.pairs.get_mut(self.active[index as usize].pair);
                 if let Some(contact) = pair.and_then(|pair| pair.contact.as_deref_mut()) {
                     contacts::store(block, rows, lane, contact);
+                    let (a, b) = (block.bodies_a[lane] as usize, block.bodies_b[lane] as usize);
+                    if a != 0 && b != 0 {
+                        let excess = contacts::excess::<N>(rows, lane);
+                        let share = contact.share_of_b;
+                        add_spin(&self.bodies[a], &mut self.state, a, &(excess * (share - 1.0)));
+                        add_spin(&self.bodies[b], &mut self.state, b, &(excess * -share));
+                    }
                 }
             }
         }
         self.joints.store(input.joints);
+    }
+}
+
+/// Gives the body of a row an angular impulse, world planes.
+fn add_spin<const N: usize>(body: &SolverBody<N>, state: &mut [Real], row: usize, impulse: &Bivector<N>) {
+    let spin = row * Sizes::<N>::STATE + N;
+    for (value, change) in state[spin..spin + Sizes::<N>::K].iter_mut().zip(body.lever(impulse)) {
+        *value += change as Real;
     }
 }
 
@@ -403,9 +399,9 @@ fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
         inverse_sqrt_moments: [0.0; bodies::MAX_PLANES],
         centre: contact.manifold.points().first().map_or(Vector::ZERO, |point| point.position),
         velocity: Vector::ZERO,
-        angular_velocity: hyperbody_math::Bivector::ZERO,
+        angular_velocity: Bivector::ZERO,
         acceleration: Vector::ZERO,
-        angular_acceleration: hyperbody_math::Bivector::ZERO,
+        angular_acceleration: Bivector::ZERO,
         surface: Vector::ZERO,
     }
 }

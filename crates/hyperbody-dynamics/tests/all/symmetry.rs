@@ -50,7 +50,7 @@ fn embedded<const N: usize>() {
     }
     println!("{N}D departs from 3D by {most:?} m");
     // Free flight and the pendulum are the same to rounding; contacts, to that of their rows in single precision, which edges
-    // that come down and rattle make larger: the box that is pushed hops, too.
+    // that come down make larger: the box that is pushed is lifted by the friction of the push, hops, and lands on one.
     let allowed = [1e-5, 1e-4, 1e-4, 1e-9, 1e-9];
     let same = most.iter().zip(allowed).all(|(&apart, limit)| apart <= limit);
     assert!(same, "{N}D departs from 3D by {most:?} m within two seconds, allowed {allowed:?}");

@@ -2,14 +2,17 @@
 //!
 //! An impulse p that acts on two bodies at one point keeps their angular momentum. Within the step the bodies move on by d_a
 //! and d_b while the arms of the rows stand still, so that p adds (d_b − d_a) ∧ p. What a contact added so is summed, and taken
-//! back in equal parts from the spins of both bodies at the step's end: as if it had acted midway between where the two carried
-//! it. Displacements against each other, not against the world, so that a uniform motion of everything changes nothing.
+//! back from the spins of both bodies at the step's end. Displacements against each other, not against the world, so that a
+//! uniform motion of everything changes nothing.
+//!
+//! Which body's arm went stale is a matter of where the contact went: with the ball that rolls on a plank, over the plank. The
+//! plank has to take all of it; any part that the ball took would drive it on. `wandering` says who takes how much.
 
 use hyperbody_math::{Bivector, planes};
 
+use super::Layout;
 use super::pairing::Pairing;
 use super::solve::{PassTimes, Passes};
-use super::{Block, Layout};
 use crate::solver::lanes::Lanes;
 
 impl<const N: usize> Passes<N> {
@@ -36,11 +39,12 @@ impl<const N: usize> Passes<N> {
         displacement: &Pairing<N>,
         times: &PassTimes,
     ) {
-        let moved = Lanes::splat(times.moved);
+        let (moved, moved_sq) = (Lanes::splat(times.moved), Lanes::splat(times.moved_sq));
         let mut between = displacement.between_centres();
         let mut impulse = Self::impulse(head, points);
         for i in 0..N {
             between[i] += moved * head[Layout::<N>::CENTRE_VELOCITY + i];
+            between[i] += moved_sq * head[Layout::<N>::CENTRE_ACCELERATION + i];
             impulse[i] -= before[i];
         }
         let mut k = Layout::<N>::EXCESS;
@@ -53,11 +57,11 @@ impl<const N: usize> Passes<N> {
     }
 }
 
-/// What a contact has added to the angular momentum of its two bodies in the step, kg·m²/s.
-pub(crate) fn excess<const N: usize>(block: &Block, rows: &[Lanes], lane: usize) -> Bivector<N> {
+/// What a contact has added to the angular momentum of its two bodies in the step, kg·m²/s. `rows` are those of its block.
+pub(crate) fn excess<const N: usize>(rows: &[Lanes], lane: usize) -> Bivector<N> {
     let mut sum = Bivector::ZERO;
     for (k, (i, j)) in planes::all(N).enumerate() {
-        sum.set(i, j, f64::from(rows[block.start + Layout::<N>::EXCESS + k].0[lane]));
+        sum.set(i, j, f64::from(rows[Layout::<N>::EXCESS + k].0[lane]));
     }
     sum
 }

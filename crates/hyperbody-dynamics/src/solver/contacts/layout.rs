@@ -25,10 +25,11 @@ impl<const N: usize> Layout<N> {
     pub(crate) const STIFFENER: usize = 6;
     pub(crate) const TWIST_MASS: usize = 7;
     pub(crate) const NORMAL: usize = 8;
-    /// Velocity of b's centre against a's at the start of the step.
+    /// Velocity of b's centre against a's at the start of the step, and acceleration.
     pub(crate) const CENTRE_VELOCITY: usize = 8 + N;
+    pub(crate) const CENTRE_ACCELERATION: usize = 8 + 2 * N;
     /// Angular momentum that the step's impulses made because the bodies moved on under them, planes of the world.
-    pub(crate) const EXCESS: usize = 8 + 2 * N;
+    pub(crate) const EXCESS: usize = 8 + 3 * N;
     pub(crate) const HEADER: usize = Self::EXCESS + Self::K;
 
     // A sliding row: direction, arms, base velocity and acceleration along it, impulse.

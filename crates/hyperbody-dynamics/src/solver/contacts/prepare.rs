@@ -121,6 +121,7 @@ impl<const N: usize> Lane<'_, N> {
         for i in 0..N {
             self.set(Layout::<N>::NORMAL + i, contact.manifold.normal[i]);
             self.set(Layout::<N>::CENTRE_VELOCITY + i, self.b.velocity[i] - self.a.velocity[i]);
+            self.set(Layout::<N>::CENTRE_ACCELERATION + i, self.b.acceleration[i] - self.a.acceleration[i]);
         }
     }
 
