@@ -44,7 +44,7 @@ fn check<const N: usize>(pairs: u64, first: u64, seed: u64) -> u64 {
     let mut all_broken = 0;
     for spread in [1.5, 1e3] {
         let start = std::time::Instant::now();
-        let (broken, total) = sweep::<N>(pairs / 2, first, seed, spread);
+        let (broken, total) = sweep::<N>(pairs.div_ceil(2), first, seed, spread);
         all_broken += broken;
         let effort = total.effort;
         println!("N = {N}, sizes {} to {spread}, {:.0} s: {total:#?}", 1.0 / spread, start.elapsed().as_secs_f64());
@@ -64,7 +64,7 @@ fn check<const N: usize>(pairs: u64, first: u64, seed: u64) -> u64 {
 
 fn main() {
     let mut numbers = std::env::args().skip(1).filter_map(|text| text.parse().ok());
-    let pairs = numbers.next().unwrap_or(10_000);
+    let pairs = numbers.next().unwrap_or(10_000).max(1);
     let seed = numbers.next().unwrap_or(1);
     let only = numbers.next();
     let first = numbers.next().unwrap_or(0);

@@ -263,13 +263,17 @@ fn complete<const N: usize>(
     pair.push(&witness.transformed(pair.world_from_a), WITNESS_ID, &mut alone);
     let Some(&point) = alone.points().first() else { return };
     scratch.effort.witness_points += 1;
-    // A patch along a facet's normal would not be in the shapes along the witness's.
-    if !out.is_empty() && out.normal != alone.normal {
+    // A patch along a facet's normal would not be in the shapes along the witness's; that of b's went through b's frame.
+    let snapped = (out.normal - alone.normal).norm_sq() > ROUNDED * ROUNDED;
+    if !out.is_empty() && snapped {
         build_along(pair, difference, Along::Exactly(witness.normal), cache, scratch, out);
     }
     out.normal = alone.normal;
     put_first(point, out);
 }
+
+/// What two ways to the same unit vector differ by at most.
+const ROUNDED: f64 = 1e-14;
 
 /// Name of the point that only the closest or deepest points show.
 const WITNESS_ID: u32 = 0x5157_0001;

@@ -104,6 +104,9 @@ pub const MAX_FACE_PAIRS: u64 = 20_000;
 /// Up to how many facets of a polytope its faces are listed for that.
 pub const MAX_AXES_FACETS: usize = 256;
 
+/// The same of its vertices: products of polygons have few facets and many faces between.
+pub const MAX_AXES_VERTICES: usize = 256;
+
 /// How often in a row a normal that won before, and is still the best in its neighbourhood, may win again without a
 /// full search: because no way out can be shorter than [`RECHECK_FRACTION`] of its depth, or because the overlap is
 /// [`SHALLOW`], so that no way out can be shorter by more than that.

@@ -222,7 +222,8 @@ impl AnyWorld {
         AnySnapshot { dimension: self.dimension, state: self.simulation.snapshot() }
     }
 
-    /// Goes back, or on, to a snapshot of a world of the same scene: from here this world does to the bit what that one did.
+    /// Goes back, or on, to a snapshot of a world of the same scene: from here this world does to the bit what that one did. A
+    /// snapshot of another scene is taken, too, and the names of bodies stand for nothing then.
     ///
     /// # Errors
     /// If the snapshot is of a world of another dimension; this world stays as it is.

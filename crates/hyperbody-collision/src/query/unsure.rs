@@ -60,11 +60,13 @@ pub(super) fn shallower_by_facet<const N: usize>(
 /// The witness, or what the separating axes of all pairs of faces find if that is shallower: the depth itself, where the
 /// search ended at its bounds and the faces are few enough.
 pub(super) fn shallower_by_axes<const N: usize>(difference: &Difference<'_, N>, witness: Witness<N>) -> Witness<N> {
-    let few_facets = |core: &Core<N>| match core {
-        Core::Polytope(polytope) => polytope.facets().len() <= limits::MAX_AXES_FACETS,
+    let few_faces = |core: &Core<N>| match core {
+        Core::Polytope(polytope) => {
+            polytope.facets().len() <= limits::MAX_AXES_FACETS && polytope.vertices().len() <= limits::MAX_AXES_VERTICES
+        }
         Core::Point | Core::Segment { .. } | Core::Box { .. } => true,
     };
-    if !(few_facets(difference.a) && few_facets(difference.b)) {
+    if !(few_faces(difference.a) && few_faces(difference.b)) {
         return witness;
     }
     let (axes_a, axes_b) = (SeparatingAxes::prepare(difference.a), SeparatingAxes::prepare(difference.b));
