@@ -27,6 +27,8 @@ pub(crate) struct Stage<const N: usize> {
     pub(crate) size: f64,
     /// How far bodies reach from their middle, m: what "far away" means.
     pub(crate) spread: f64,
+    /// Between the lines on floors and walls, m.
+    pub(crate) mesh: f64,
     /// Height of the highest floor along `up`, m; 0 without one.
     pub(crate) floor_height: f64,
     pub(crate) tones: Tones,
@@ -165,6 +167,7 @@ impl<const N: usize> Stage<N> {
             up: Slice::seen(against_gravity).try_normalize().unwrap_or(Vector::unit(1)),
             size: 1.0,
             spread: 1.0,
+            mesh: 1.0,
             floor_height: 0.0,
             tones: Tones {
                 floor: Rgb::from_hex(0xCBC9C5),
@@ -219,6 +222,7 @@ impl<const N: usize> Stage<N> {
         }
         sizes.sort_unstable_by(f64::total_cmp);
         stage.size = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
+        stage.mesh = mesh(stage.size);
         stage.measure();
         stage.add_ghosts(bodies, slice);
         stage.cut.tree.rebuild();
@@ -273,6 +277,19 @@ impl<const N: usize> Stage<N> {
         }
     }
 }
+
+/// The mesh of the grid beside bodies of a size: 1 m, or the power of ten of which the bodies are ten at most. Lines are as wide
+/// as bodies ask for, and would leave no floor between them if the mesh stayed.
+fn mesh(size: f64) -> f64 {
+    let mut mesh = 1.0;
+    while size > 10.0 * mesh && mesh < MOST_MESH {
+        mesh *= 10.0;
+    }
+    mesh
+}
+
+/// The widest mesh, m.
+const MOST_MESH: f64 = 1e15;
 
 /// What the slice has of the boundary of a half-space.
 pub(crate) enum SlicePlane {

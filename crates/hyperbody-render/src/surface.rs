@@ -129,7 +129,7 @@ impl<const N: usize> Stage<N> {
         let footprint = distance * pixel_angle;
         let reach = 30.0 * self.size + 5.0 * self.spread;
         let far = (distance / reach).min(10.0);
-        let lines = grid(plane, point, 0.012 * self.size.max(0.3), footprint / grazing.sqrt());
+        let lines = self.grid(plane, point, footprint / grazing.sqrt());
         let albedo = self.tones.floor.mix(self.tones.lines, lines * 0.6);
         let haze = 1.0 - hyperbody::math::scalar::exp(-far * far) as f32;
         Seen {
@@ -146,6 +146,28 @@ impl<const N: usize> Stage<N> {
         }
     }
 
+    /// How much of a pixel is covered by the lines of the grid, by the line's share of the footprint.
+    fn grid(&self, plane: &Plane, point: Vector<3>, footprint: f64) -> f32 {
+        // In meshes.
+        let (point, footprint) = (point * (1.0 / self.mesh), footprint / self.mesh);
+        let width = 0.012 * self.size.max(0.3) / self.mesh;
+        let mut cover = 0.0_f32;
+        for axis in 0..3 {
+            let slope = (1.0 - plane.normal[axis] * plane.normal[axis]).max(0.0).sqrt();
+            // Axes along the plane's normal have no lines in it.
+            if slope < 0.5 {
+                continue;
+            }
+            let away = (point[axis] - point[axis].round()).abs() / slope;
+            let reach = 0.5 * (width + footprint);
+            let share = ((reach - away) / footprint).clamp(0.0, 1.0) * (width / footprint).min(1.0);
+            cover = cover.max(share as f32);
+        }
+        // Meshes smaller than a few pixels become an even tone.
+        let even = (2.0 * width) as f32;
+        cover + (even - cover) * smooth(0.15, 0.6, footprint as f32)
+    }
+
     /// A wall: a fence of glass that fades with height, so that what stands behind it stays in sight.
     fn wall(&self, plane: &Plane, point: Vector<3>, footprint: f64) -> (Rgb, f32) {
         let height = (self.up.dot(point) - self.floor_height) / (3.2 * self.size);
@@ -153,7 +175,7 @@ impl<const N: usize> Stage<N> {
             return (Rgb::BLACK, 0.0);
         }
         let fade = (1.0 - height as f32) * (1.0 - height as f32);
-        let lines = grid(plane, point, 0.012 * self.size.max(0.3), footprint);
+        let lines = self.grid(plane, point, footprint);
         (self.tones.wall, fade * (0.05 + 0.4 * lines))
     }
 
@@ -191,25 +213,6 @@ fn veil(seen: &mut Seen, veils: &mut [(f64, Rgb, f32)]) {
         left *= 1.0 - cover;
     }
     seen.veil_cover = 1.0 - left;
-}
-
-/// How much of a pixel is covered by the lines of a grid with meshes of 1 m, by the line's share of the footprint.
-fn grid(plane: &Plane, point: Vector<3>, width: f64, footprint: f64) -> f32 {
-    let mut cover = 0.0_f32;
-    for axis in 0..3 {
-        let slope = (1.0 - plane.normal[axis] * plane.normal[axis]).max(0.0).sqrt();
-        // Axes along the plane's normal have no lines in it.
-        if slope < 0.5 {
-            continue;
-        }
-        let away = (point[axis] - point[axis].round()).abs() / slope;
-        let reach = 0.5 * (width + footprint);
-        let share = ((reach - away) / footprint).clamp(0.0, 1.0) * (width / footprint).min(1.0);
-        cover = cover.max(share as f32);
-    }
-    // Meshes smaller than a few pixels become an even tone.
-    let even = (2.0 * width) as f32;
-    cover + (even - cover) * smooth(0.15, 0.6, footprint as f32)
 }
 
 fn is_rounded<const N: usize>(piece: &Piece<N>) -> bool {

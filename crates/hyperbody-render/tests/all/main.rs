@@ -4,4 +4,5 @@ mod areas;
 mod beside;
 mod cameras;
 mod common;
+mod scales;
 mod sections;
