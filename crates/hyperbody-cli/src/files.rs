@@ -144,23 +144,21 @@ impl Target {
     }
 
     /// Gives what another program wrote aside its name, once it is on the disk.
-    pub(crate) fn publish_foreign(&self) -> Result<(), Failure> {
+    pub(crate) fn publish_foreign(&self, program: &str) -> Result<(), Failure> {
         if self.is_special() {
             return Ok(());
         }
         let file = File::options().write(true).open(self.aside());
         let written = file.and_then(|file| file.sync_all().and_then(|()| file.metadata()));
-        match written {
-            Ok(metadata) if metadata.len() > 0 => self.publish(),
-            Ok(_) => {
-                self.discard();
-                Err(self.unwritable(&"nothing was written"))
-            }
-            Err(error) => {
-                self.discard();
-                Err(self.unwritable(&error))
-            }
-        }
+        let nothing = format!("{program} says that it is done, and has written nothing");
+        let why = match written {
+            Ok(metadata) if metadata.len() > 0 => return self.publish(),
+            Ok(_) => nothing,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => nothing,
+            Err(error) => format!("{program}: {error}"),
+        };
+        self.discard();
+        Err(self.unwritable(&why))
     }
 
     /// Where a program that writes the file itself has to write it, after [`Target::begin`].

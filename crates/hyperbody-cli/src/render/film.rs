@@ -32,7 +32,7 @@ pub(super) fn write(film: &Film, plan: &Plan, view: &View<'_>, timeline: &mut Ti
     match film.format {
         Format::Gif => store(film, frames, FilmFormat::Gif, (&plan.target, plan.size), view, timeline),
         Format::Apng => store(film, frames, FilmFormat::Apng, (&plan.target, plan.size), view, timeline),
-        Format::Mp4 if mp4::is_there() => {
+        Format::Mp4 if mp4::is_there()? => {
             let output = Output::Mp4(Mp4::new(&plan.target, plan.size, film.rate)?);
             Ok(draw(film, frames, output, view, timeline)?.of(&plan.target, plan.size))
         }

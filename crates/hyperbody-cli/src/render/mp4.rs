@@ -13,12 +13,36 @@ use crate::stop;
 /// Most that is kept of what ffmpeg complains of, bytes.
 const MAX_COMPLAINT: u64 = 4096;
 
-/// Whether there is an ffmpeg that starts.
-pub(super) fn is_there() -> bool {
-    let quiet =
-        |command: &mut Command| command.stdin(Stdio::null()).output().is_ok_and(|output| output.status.success());
-    quiet(Command::new("ffmpeg").arg("-version"))
+/// Whether there is an ffmpeg.
+///
+/// # Errors
+/// If there is one that does not run: films then are not made otherwise in silence, for it can be mended.
+pub(super) fn is_there() -> Result<bool, Failure> {
+    let why = match Command::new("ffmpeg").arg("-version").stdin(Stdio::null()).output() {
+        Ok(output) if output.status.success() => return Ok(true),
+        Ok(output) => first_line(&output.stderr).unwrap_or_else(|| output.status.to_string()),
+        Err(_) if !is_on_path() => return Ok(false),
+        Err(error) => error.to_string(),
+    };
+    Err(Failure::Input(format!(
+        "ffmpeg is there but does not run: {why}; mend it, or name a .gif or an .apng, which are made without it"
+    )))
 }
+
+/// Whether a file of that name lies in a folder of the PATH: a folder that may not be read is no sign of one.
+fn is_on_path() -> bool {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&folders).any(|folder| folder.join("ffmpeg").is_file())
+}
+
+/// The first line that says something.
+fn first_line(bytes: &[u8]) -> Option<String> {
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(MAX_COMPLAINT as usize)]).into_owned();
+    text.lines().map(str::trim).find(|line| !line.is_empty()).map(|line| line.chars().take(MOST_LETTERS).collect())
+}
+
+/// Most letters of a line of ffmpeg that a message repeats.
+const MOST_LETTERS: usize = 200;
 
 /// A film that ffmpeg is making.
 pub(super) struct Mp4<'a> {
@@ -85,7 +109,7 @@ impl<'a> Mp4<'a> {
         let status = stop::wait_for_helper();
         if status.as_ref().is_ok_and(ExitStatus::success) {
             self.finished = true;
-            return self.target.publish_foreign();
+            return self.target.publish_foreign("ffmpeg");
         }
         Err(self.told(status))
     }

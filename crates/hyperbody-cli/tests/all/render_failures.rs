@@ -141,18 +141,50 @@ fn what_finds_the_disk_full_leaves_the_old_file() {
     }
 }
 
-/// An ffmpeg that says it is done and has written nothing.
+/// An ffmpeg that says it is done and has written nothing: no file, or an empty one.
 #[cfg(unix)]
 #[test]
 fn an_empty_film_is_an_error() {
-    let folder = folder("empty-film");
-    let path = fake_ffmpeg("idle", "for last; do :; done\ncat > /dev/null\n[ -e nothing ] || : > \"$last\"");
-    let mp4 = folder.join("film.mp4");
-    let output = with_path(&path, &[&["render", "dice4d", "-o", mp4.to_str().unwrap()], &SHORT[..]].concat());
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("film.mp4: cannot be written: nothing was written"), "{said}");
-    assert_eq!(names(&folder), Vec::<String>::new());
+    for (name, end) in [("idle", ": > \"$last\""), ("lazy", "exit 0")] {
+        let folder = folder("empty-film");
+        let path = fake_ffmpeg(name, &format!("for last; do :; done\ncat > /dev/null\n{end}"));
+        let mp4 = folder.join("film.mp4");
+        let output = with_path(&path, &[&["render", "dice4d", "-o", mp4.to_str().unwrap()], &SHORT[..]].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("film.mp4: cannot be written: ffmpeg says that it is done"), "{said}");
+        assert_eq!(names(&folder), Vec::<String>::new());
+    }
+}
+
+/// An ffmpeg that is there and does not run is no missing one: no film of another kind takes the place of what was asked for.
+#[cfg(unix)]
+#[test]
+fn an_ffmpeg_that_does_not_run_is_told() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let complains =
+        "#!/bin/sh\necho >&2\necho 'ffmpeg: error while loading shared libraries' >&2\necho more >&2\nexit 127\n";
+    for (name, script, mode, words) in [
+        ("torn", complains, 0o755, "ffmpeg: error while loading shared libraries;"),
+        ("silent", "#!/bin/sh\nexit 3\n", 0o755, "exit status: 3;"),
+        ("foreign", "#!/no/such/interpreter\n", 0o755, "No such file"),
+        ("plain", "no program", 0o644, "denied"),
+    ] {
+        let tools = folder(&format!("broken-{name}"));
+        let program = tools.join("ffmpeg");
+        std::fs::write(&program, script).unwrap();
+        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(mode)).unwrap();
+        let folder = folder("broken-film");
+        let mp4 = folder.join("film.mp4");
+        let arguments = [&["render", "dice4d", "-o", mp4.to_str().unwrap()], &SHORT[..]].concat();
+        let output = with_path(tools.to_str().unwrap(), &arguments);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{name}: {said}");
+        assert!(said.contains("ffmpeg is there but does not run: ") && said.contains(words), "{name}: {said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert_eq!(names(&folder), Vec::<String>::new(), "no film in its place");
+    }
 }
 
 /// Ctrl-C reaches every program of the terminal's group. Whether ffmpeg would end by it or not, the status is that of what was
