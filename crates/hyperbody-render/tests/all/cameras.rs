@@ -58,6 +58,41 @@ fn a_camera_makes_room_at_the_right_edge() {
     }
 }
 
+/// In a picture higher than wide the strips leave three quarters of the width to the bodies, and where that is too little for
+/// them there are none; in wide ones they are as wide as ever. What is drawn differs from the picture without strips there alone.
+#[test]
+fn strips_of_high_pictures_leave_room_for_the_bodies() {
+    fn check<const N: usize>() {
+        let bodies = Bodies::of(&heap::<N>());
+        let slice = Slice::<N>::natural();
+        for (width, height) in [(405, 720), (200, 800), (120, 400), (50, 300), (30, 300)] {
+            let share = strips_share(N, width, height);
+            assert!((0.0..=0.2501).contains(&share), "{share} of {width} × {height} in {N}D");
+            assert_eq!(share > 0.0, width / (N as u32 - 3) >= 60, "{share} of {width} × {height} in {N}D");
+            let camera = frame_bodies(&bodies, &slice, f64::from(width) / f64::from(height));
+            let draw = |strip: bool| {
+                let settings = Settings { width, height, strip, ..settings() };
+                render(&bodies, &slice, Some(&camera), &settings, &|_| ()).unwrap()
+            };
+            let other = differing(&draw(true), &draw(false));
+            let columns = other.iter().enumerate().filter(|(_, differs)| **differs).map(|(at, _)| at as u32 % width);
+            let first = columns.min().unwrap_or(width);
+            let free = (1.0 - share) * f64::from(width);
+            assert!(
+                f64::from(first) > free - 2.0 && f64::from(first) < free + 0.1 * f64::from(width),
+                "{first}, {free}"
+            );
+        }
+        for (width, height) in [(720, 720), (640, 360), (1280, 720), (100, 90)] {
+            let usual = (20.0 + 106.0 * (N as f64 - 3.0)) * f64::from(height) / 720.0 / f64::from(width);
+            assert!((strips_share(N, width, height) - usual).abs() < 1e-6, "{width} × {height} in {N}D");
+        }
+    }
+    check::<4>();
+    check::<5>();
+    check::<6>();
+}
+
 #[test]
 fn a_body_that_flew_away_and_a_single_one_make_good_pictures() {
     let mut world = heap::<4>();
