@@ -135,6 +135,11 @@ impl SheetAxis {
         self.name == "t"
     }
 
+    /// Whether it begins where it ends.
+    pub(crate) fn is_constant(&self) -> bool {
+        self.from == self.to
+    }
+
     /// The value for each picture: evenly from the first to the last.
     pub(crate) fn values(&self) -> Vec<f64> {
         let share = |index: u32| f64::from(index) / f64::from(self.count.max(2) - 1);
@@ -154,11 +159,7 @@ fn sheet_axis(text: &str) -> Result<SheetAxis, String> {
         return Err(format!("a sheet has 2 to {MAX_PICTURES} pictures, not {count}"));
     }
     if to.starts_with('.') {
-        let digits = to.trim_start_matches('.');
-        return Err(format!(
-            "\"{}\" has more than two dots; write {from}..{digits}, or {from}..0.{digits}",
-            shortened(text)
-        ));
+        return Err(too_many_dots(text, from, to));
     }
     let name = name.trim().to_owned();
     let value = |text: &str| match name.chars().count() {
@@ -167,6 +168,18 @@ fn sheet_axis(text: &str) -> Result<SheetAxis, String> {
         _ => within(text, -LARGEST_TURN..=LARGEST_TURN, "°"),
     };
     Ok(SheetAxis { from: value(from)?, to: value(to)?, count, name })
+}
+
+/// What is said of `0...5`: what may have been meant, if anything.
+fn too_many_dots(text: &str, from: &str, to: &str) -> String {
+    let digits = to.trim_start_matches('.');
+    // A hint that is cut off would be none.
+    let hint = if digits.is_empty() || shortened(text) != text {
+        "write FROM..TO, two numbers with two dots between them".to_owned()
+    } else {
+        format!("write {from}..{digits}, or {from}..0.{digits}")
+    };
+    format!("\"{}\" has more than two dots; {hint}", shortened(text))
 }
 
 fn speed(text: &str) -> Result<f64, String> {

@@ -33,6 +33,11 @@ pub(super) fn write(sheet: &Sheet, plan: &Plan, view: &View<'_>, timeline: &mut 
     if view.hides_strip() && !matches!(varied, Varied::Place(3..)) {
         eprintln!("warning: --no-strip changes nothing: only sheets of places along a hidden axis have strips");
     }
+    if sheet.axis.is_constant() {
+        eprintln!(
+            "warning: --sheet: {name} ends where it begins: all pictures are the same; FROM..TO goes from one to another"
+        );
+    }
     match varied {
         Varied::Time => {}
         Varied::Place(axis) => view.check_unsaid_axis(axis, name)?,

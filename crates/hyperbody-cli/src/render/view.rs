@@ -105,13 +105,25 @@ impl<'a> View<'a> {
         for (option, _) in idle.iter().filter(|(_, given)| *given && dimension < 4) {
             eprintln!("warning: {option} changes nothing: {dimension} dimensions have no hidden axis");
         }
-        let still = self.arguments.speed == Some(0.0);
-        if still && self.arguments.slice_to.is_none() && self.arguments.turn_to.is_none() {
+        let (width, height) = self.size;
+        let sheet = self.arguments.sheet.as_ref();
+        let has_strips = sheet.is_none_or(|sheet| arguments::axis(&sheet.name, dimension).is_ok_and(|axis| axis > 2));
+        if self.strip && has_strips && dimension > 3 && strips_share(dimension, width, height) == 0.0 {
             eprintln!(
-                "warning: with --speed 0 time stands still, and all pictures are the same; --slice-to or --turn-to moves \
-                 the slice"
+                "warning: the strip of hidden axes is left out: in {width} × {height} pixels it would be too narrow to read"
             );
         }
+        if self.arguments.speed == Some(0.0) && self.is_still() {
+            eprintln!(
+                "warning: with --speed 0 time stands still, and the slice ends where it begins: all pictures are the same; \
+                 --slice-to or --turn-to moves the slice"
+            );
+        }
+    }
+
+    /// Whether the slice is the same from the beginning to the end of a film.
+    fn is_still(&self) -> bool {
+        self.points[0] == self.points[1] && self.turns.iter().all(|turn| turn.angles[0] == turn.angles[1])
     }
 
     fn check_camera(&self) -> Result<(), Failure> {

@@ -28,6 +28,7 @@ fn refused(arguments: &[&str], words: &str) {
 #[test]
 fn every_number_has_a_range_that_is_told() {
     let nines = "9".repeat(400);
+    let too_many = format!("w={}...5,3", "9".repeat(5000));
     for (option, value, words) in [
         ("--at", "1e300", "1e300 is not a number from 0 to 1000000000 s"),
         ("--at", "-5", "-5 is not a number from 0 to"),
@@ -42,6 +43,8 @@ fn every_number_has_a_range_that_is_told() {
         ("--sheet", "xw=0..1e300,3", "from -36000 to 36000°"),
         ("--sheet", "t=0..1e300,3", "to 1000000000 s"),
         ("--sheet", "w=0...1,3", "more than two dots; write 0..1, or 0..0.1"),
+        ("--sheet", "w=0...,3", "has more than two dots; write FROM..TO, two numbers"),
+        ("--sheet", &too_many, "999…\" has more than two dots; write FROM..TO, two numbers"),
         ("--width", "-5", "-5 is not a whole number from 16 to 8192"),
         ("--quality", "-1", "-1 is not a whole number from 1 to 64"),
         ("--threads", "-1", "-1 is not a whole number from 1 to 256"),
@@ -97,6 +100,37 @@ fn options_that_change_nothing_in_a_scene_are_told() {
     let film: &[&str] = &["--seconds", "0.1", "--speed", "0"];
     said("dice4d", "still.gif", film, "all pictures are the same");
     said("dice4d", "moving.gif", &[film, &["--slice-to", "w=1"]].concat(), "");
+    // Where the slice is said to go is where it is.
+    for (name, options) in [
+        ("same-place.gif", &["--slice", "w=1", "--slice-to", "w=1"][..]),
+        ("same-turn.gif", &["--turn", "xw=30", "--turn-to", "xw=30"]),
+        ("same-backwards.gif", &["--turn", "xw=30", "--turn-to", "wx=-30"]),
+        ("no-place.gif", &["--slice-to", "w=0"]),
+        ("no-turn.gif", &["--turn-to", "xw=0"]),
+    ] {
+        said("dice4d", name, &[film, options].concat(), "all pictures are the same");
+    }
+    said("dice4d", "turning.gif", &[film, &["--turn", "xw=30", "--turn-to", "xw=0"]].concat(), "");
+    said("dice4d", "one-place.png", &["--sheet", "w=1..1,2", "--at", "0"], "w ends where it begins: all pictures are");
+    said("dice4d", "one-moment.png", &["--sheet", "t=0..0,2"], "t ends where it begins");
+}
+
+/// In a high picture the strips leave room; one that leaves none for them says so.
+#[test]
+fn high_pictures_without_room_for_strips_are_told() {
+    let size = |width| ["--at", "0", "--quality", "1", "--width", width, "--height", "200"];
+    let draw = |scene: &str, width: &'static str, more: &[&str]| {
+        let picture = place("high.png");
+        let arguments = ["render", scene, "-o", picture.to_str().unwrap()];
+        let output = hyperbody(&[&arguments[..], &size(width)[..], more].concat());
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let told = draw("dice4d", "40", &[]);
+    assert!(told.contains("the strip of hidden axes is left out: in 40 × 200 pixels"), "{told}");
+    assert_eq!(draw("dice4d", "40", &["--no-strip"]), "");
+    assert_eq!(draw("dice4d", "90", &[]), "");
+    assert_eq!(draw("chain3d", "40", &[]), "");
 }
 
 /// Within a wall there is nothing of it to see; the picture says why it is not there.
