@@ -91,17 +91,21 @@ impl Target {
         }
     }
 
-    /// Refuses to write over what is read.
+    /// Refuses to write over what is read: the input, and after it the files that it names.
     ///
     /// # Errors
-    /// If both are the same file.
-    pub(crate) fn refuse_input(&self, option: &str, input: &Path) -> Result<(), Failure> {
+    /// If one of them is the target.
+    pub(crate) fn refuse_inputs(&self, option: &str, inputs: &[PathBuf]) -> Result<(), Failure> {
         let whole = |path: &Path| path.canonicalize().ok();
-        if input.is_file() && whole(input) == whole(&self.path) {
-            let message = "is the input itself, which would be lost; name another file";
-            return Err(Failure::Input(format!("{option}: {}: {message}", self.path.display())));
+        let place = whole(&self.path);
+        match inputs.iter().position(|input| input.is_file() && whole(input) == place) {
+            None => Ok(()),
+            Some(number) => {
+                let what = if number == 0 { "is the input itself" } else { "is a file that the input names" };
+                let message = format!("{what}, which would be lost; name another file");
+                Err(Failure::Input(format!("{option}: {}: {message}", self.path.display())))
+            }
         }
-        Ok(())
     }
 
     /// Where the file is written before it gets its name; of a long name the beginning, so that there is room for the rest.

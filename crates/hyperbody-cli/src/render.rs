@@ -10,7 +10,7 @@ mod sheet;
 mod timeline;
 mod view;
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use hyperbody_render::RenderError;
 
@@ -30,8 +30,9 @@ impl From<RenderError> for Failure {
 
 pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let plan = Plan::new(arguments)?;
-    plan.target.refuse_input("--output", Path::new(&arguments.scene))?;
+    plan.target.refuse_inputs("--output", &[PathBuf::from(&arguments.scene)])?;
     let mut timeline = Timeline::open(&arguments.scene, arguments.threads)?;
+    plan.target.refuse_inputs("--output", &timeline.files()?)?;
     let view = View::new(arguments, timeline.dimension(), plan.size)?;
     let report = match &plan.work {
         Work::Still { at } => still(*at, &plan, &view, &mut timeline)?,

@@ -70,8 +70,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut world = AnyWorld::new(&scene, usize::from(arguments.threads))?;
     let steps = steps(arguments, &scene)?;
     let target = arguments.record.as_deref().map(|path| Target::anywhere("--record", path)).transpose()?;
-    if let (Some(target), Some(file)) = (&target, &scene.file) {
-        target.refuse_input("--record", file)?;
+    if let Some(target) = &target {
+        target.refuse_inputs("--record", &source::files_of(&scene)?)?;
+        source::refuse_to_replace_other("--record", target)?;
     }
     let mut record = target.as_ref().map(|target| Record::begin(target, &scene, arguments.record_every)).transpose()?;
     let mut report = simulate(&scene, &mut world, steps, record.as_mut())?;

@@ -14,6 +14,7 @@ use crate::failure::Failure;
 use crate::files::Target;
 use crate::numbers::whole;
 use crate::output::{labelled, number, print, print_json};
+use crate::source;
 
 use project::Eye;
 
@@ -80,8 +81,9 @@ struct Report {
 
 pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
     let target = Target::new("--output", &arguments.output, &["stl", "obj", "off", "glb"])?;
-    target.refuse_input("--output", &arguments.file)?;
+    target.refuse_inputs("--output", std::slice::from_ref(&arguments.file))?;
     let file = load(&arguments.file, arguments.dimension)?;
+    target.refuse_inputs("--output", &source::files_of_shape(&file)?)?;
     let planes = hyperplanes(arguments, file.dimension)?;
     if arguments.project {
         return project(arguments, &target, &file, &planes);

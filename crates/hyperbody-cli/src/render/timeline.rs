@@ -1,5 +1,7 @@
 //! Where the bodies are when: from a scene that is simulated, or from a recording.
 
+use std::path::PathBuf;
+
 use hyperbody::math::{Dim, EvenAlgebra, Pose};
 use hyperbody_render::Bodies;
 use hyperbody_scene::recording::Frame;
@@ -47,12 +49,21 @@ impl Timeline {
             let kind = Kind::Recorded(Box::new(recording));
             return Ok(Self { name, argument: argument.to_owned(), start, colours, kind });
         }
+        source::refuse_other("a scene, a .json file, or a recording", argument)?;
         let scene = source::scene(argument)?;
         let start = AnyWorld::new(&scene, 1)?;
         let world = Box::new(AnyWorld::new(&scene, threads)?);
         let kind = Kind::Simulated { scene: Box::new(scene.clone()), world, threads };
         let colours = colours(&scene);
         Ok(Self { name: scene.name, argument: argument.to_owned(), start, colours, kind })
+    }
+
+    /// The files that the scene was read from, itself first; of a recording none beside it.
+    pub(super) fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+        match &self.kind {
+            Kind::Simulated { scene, .. } => source::files_of(scene),
+            Kind::Recorded(_) => Ok(vec![PathBuf::from(&self.argument)]),
+        }
     }
 
     /// What the scene is called.

@@ -100,7 +100,7 @@ fn a_full_disk_ends_the_run_with_a_clear_error() {
 fn a_failed_recording_leaves_the_old_one() {
     let (path, name) = place("kept/kept.hbrec");
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-    std::fs::write(&path, "old").unwrap();
+    std::fs::write(&path, b"\x89HBREC of old").unwrap();
     let line = format!(
         "trap '' XFSZ; ulimit -f 8; exec {} run pit4d --steps 300 --record {name}",
         env!("CARGO_BIN_EXE_hyperbody")
@@ -109,6 +109,71 @@ fn a_failed_recording_leaves_the_old_one() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(error.contains("kept.hbrec: cannot be written"), "{error}");
-    assert_eq!(std::fs::read(&path).unwrap(), b"old");
+    assert_eq!(std::fs::read(&path).unwrap(), b"\x89HBREC of old");
     assert_eq!(std::fs::read_dir(path.parent().unwrap()).unwrap().count(), 1, "nothing is left beside it");
+}
+
+/// A recording may be called anything: a file that is none is not replaced by one.
+#[test]
+fn what_is_no_recording_is_not_replaced() {
+    let (_, picture) = place("replaced/dice.png");
+    std::fs::create_dir_all(PathBuf::from(&picture).parent().unwrap()).unwrap();
+    let drawn = hyperbody(&["render", "bounce2d", "--at", "0", "--width", "32", "-o", &picture]);
+    assert!(drawn.status.success());
+    for (name, content, words) in [
+        ("dice.png", None, "dice.png: is a PNG picture, and would be lost"),
+        ("film.mp4", Some("\0\0\0\u{1c}ftypisom"), "is an MP4 film"),
+        ("other.json", Some(" {\"format\": 1}"), "is a JSON file"),
+        ("cube.off", Some("4OFF\n"), "is an OFF file"),
+        ("notes.hbrec", Some("to be done"), "is no recording"),
+    ] {
+        let (path, name) = place(&format!("replaced/{name}"));
+        if let Some(content) = content {
+            std::fs::write(&path, content).unwrap();
+        }
+        let before = std::fs::read(&path).unwrap();
+        refused(&["run", "bounce2d", "--steps", "5", "--record", &name], &["--record: ", words, "name another file"]);
+        assert_eq!(std::fs::read(&path).unwrap(), before);
+    }
+    let (path, name) = place("replaced/empty.png");
+    std::fs::write(&path, "").unwrap();
+    for steps in ["5", "6"] {
+        json_of(&["run", "bounce2d", "--steps", steps, "--record", &name, "--json"]);
+    }
+    assert_eq!(json_of(&["inspect", &name, "--json"])["last"]["step"], 6, "a recording is replaced by another");
+    refused(
+        &["render", &picture, "-o", &name],
+        &["dice.png: is a PNG picture; name a scene, a .json file, or a recording"],
+    );
+}
+
+/// Nor is any file that was read: neither the scene nor the shapes beside it.
+#[test]
+fn files_that_a_scene_names_are_not_overwritten() {
+    let simplex = "4OFF\n5 5 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+    let off = file("names/simplex.off", simplex);
+    let again = file("names/simplex.png", simplex);
+    let shape =
+        |name: &str| format!(r#"{{"rounded": {{"radius": 0.1, "shape": {{"polytope": {{"file": "{name}"}}}}}}}}"#);
+    let scene = |name: &str| {
+        let bodies = format!(r#"[{{"shape": {}}}]"#, shape(name));
+        format!(r#"{{"format": "hyperbody-scene", "version": 1, "dimension": 4, "bodies": {bodies}}}"#)
+    };
+    let alone = file("names/shape.json", shape("simplex.off"));
+    let first = file("names/scene.json", scene("simplex.off"));
+    let second = file("names/picture.json", scene("simplex.png"));
+    let [off, again, alone, first, second] =
+        [&off, &again, &alone, &first, &second].map(|path| path.to_str().unwrap().to_owned());
+    let around = off.replace("names/", "names/../names/");
+    for arguments in [
+        ["run", &first, "--steps=5", "--record", &off],
+        ["run", &first, "--steps=5", "--record", &around],
+        ["slice", &alone, "--dimension=4", "--output", &off],
+        ["slice", &alone, "--dimension=4", "--output", &around],
+        ["render", &second, "--at=0", "--output", &again],
+    ] {
+        refused(&arguments, &[arguments[3], "is a file that the input names, which would be lost"]);
+    }
+    refused(&["run", &first, "--record", &first], &["is the input itself"]);
+    assert_eq!([&off, &again].map(|path| std::fs::read_to_string(path).unwrap()), [simplex, simplex]);
 }
