@@ -97,10 +97,48 @@ test("gravity off: what is thrown up does not come down; added bodies can be und
   await page.locator("[data-shape=ball]").click();
   await until(page, (count) => window.hyperbody.scene.bodies.length === count + 1, bodies);
   await until(page, () => window.hyperbody.frame.selected !== null);
-  const energy = await page.evaluate(() => window.hyperbody.frame.selected.velocity.map(Math.abs));
-  assert.ok(Math.max(...energy) < 1, `a body added without gravity moves at ${energy}`);
+  // Half a second of fall would be 4.9 m/s.
+  const added = await page.evaluate(() => window.hyperbody.frame.time);
+  await until(page, (time) => window.hyperbody.frame.time > time + 0.5, added);
+  const velocity = await page.evaluate(() => window.hyperbody.frame.selected.velocity.map(Math.abs));
+  assert.ok(Math.max(...velocity) < 1, `a body added without gravity moves at ${velocity}`);
   await page.keyboard.press("Control+z");
   await until(page, (count) => window.hyperbody.scene.bodies.length === count, bodies);
   assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("started again, the scene keeps its slice, its gravity and what is selected", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await page.keyboard.down("e");
+  await until(page, () => window.hyperbody.slice.origin[3] > 0.2);
+  await page.keyboard.up("e");
+  await page.keyboard.press("v");
+  await page.keyboard.press("n");
+  await until(page, () => window.hyperbody.frame.selected !== null && window.hyperbody.frame.step > 30);
+  await page.keyboard.press("Backspace");
+  await until(page, () => window.hyperbody.frame.step < 30);
+  await until(page, () => window.hyperbody.frame.step > 30 && window.hyperbody.frame.selected !== null);
+  const { told, cut, speeds } = await page.evaluate(() => ({
+    told: window.hyperbody.slice.origin[3], cut: window.hyperbody.frame.slice.origin[3], speeds: window.hyperbody.frame.selected.velocity.map(Math.abs),
+  }));
+  assert.ok(Math.abs(told - cut) < 1e-6 && cut > 0.1, `the strip stands at ${told}, the slice at ${cut}`);
+  assert.ok(Math.max(...speeds) < 0.2, `without gravity it moves at ${speeds}`);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("arrows move the slider that has the focus, and not the world", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page } = await open(context, server.address, { scene: "hello4d" });
+  await until(page, () => window.hyperbody.frame.history.seconds > 1, null, 30_000);
+  await page.getByTestId("scrub").focus();
+  for (let k = 0; k < 5; k++) await page.keyboard.press("ArrowLeft");
+  await until(page, () => window.hyperbody.frame.history.secondsBack > 0.01 && window.hyperbody.frame.paused);
+  await page.keyboard.press("c");
+  await page.keyboard.press("Backspace");
+  await page.keyboard.press("Escape");
+  assert.ok(await page.evaluate(() => window.hyperbody.frame.step > 30), "Backspace in the gallery started the scene again");
   await context.close();
 });

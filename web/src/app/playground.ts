@@ -72,7 +72,8 @@ export class Playground {
   readonly onPicture = new Set<(seconds: number) => void>();
   private pictureWanted: ((picture: Blob) => void) | null = null;
   private unframed = false;
-  private resetting = false;
+  /** Starts from the beginning that are under way. */
+  private resets = 0;
   private opening: string | null = null;
   private fresh = false;
   private lastReadout = 0;
@@ -120,8 +121,8 @@ export class Playground {
 
   /** The scene from its start; slice, camera and choices stay. */
   reset(): void {
-    this.resetting = true;
-    void this.attempt(this.client.request("reset", {})).then(() => (this.resetting = false));
+    this.resets += 1;
+    void this.attempt(this.client.request("reset", {})).then(() => (this.resets -= 1));
   }
 
   async undo(): Promise<void> {
@@ -361,10 +362,19 @@ export class Playground {
 
   private takeScene(scene: SceneDescription, loaded: boolean): void {
     this.scene.value = scene;
-    if (loaded && !this.resetting) this.begin(scene);
+    const again = this.resets > 0;
+    if (loaded && !again) this.begin(scene);
     else this.stage.styles.setBodies(scene.bodies);
     if (loaded) this.hands.forget();
     if (!scene.bodies.some((body) => body.id === this.selected.value)) this.select(null);
+    if (loaded && again) this.sendChoices();
+  }
+
+  /** The worker's world is new; what was chosen before goes on. */
+  private sendChoices(): void {
+    this.sendSlice();
+    this.client.send("gravity", { vector: [...this.gravity.value] });
+    this.client.send("select", { body: this.selected.value });
   }
 
   private begin(scene: SceneDescription): void {

@@ -105,12 +105,14 @@ export class SliceControl {
   update(seconds: number, followed: readonly number[] | null): void {
     this.animateStep(seconds);
     this.applySpeeds(seconds);
+    // Where a body led the slice to, an older wish has nothing to say.
+    if (followed) this.offsetGoals = [];
     for (let j = 0; j < this.offCount; j++) {
       const goal = this.offsetGoals[j];
       const away = followed ? followed[j] : goal !== null && goal !== undefined ? goal - this.offset(j) : 0;
-      if (Math.abs(away) < STILL) continue;
       const share = this.calm || Math.abs(away) < 1e-3 ? 1 : 1 - Math.exp(-EASE_RATE * seconds);
-      this.shift(j, away * share);
+      if (share === 1) this.offsetGoals[j] = null;
+      if (Math.abs(away) >= STILL) this.shift(j, away * share);
     }
   }
 
@@ -131,6 +133,7 @@ export class SliceControl {
       const speed = old + (goal - old) * share;
       this.spin.set(key, Math.abs(speed) < 1e-3 ? 0 : speed);
       if (Math.abs(speed) < 1e-3) continue;
+      this.offsetGoals = [];
       const [i, j] = key.split(",").map(Number);
       this.frame = turned(this.frame, i, this.frame.shown + j, speed * TURN_SPEED * seconds, this.pivot());
       this.changed = true;

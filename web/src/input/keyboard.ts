@@ -37,7 +37,7 @@ export class KeyboardInput {
 
   private down(event: KeyboardEvent): void {
     [this.alt, this.shift] = [event.altKey, event.shiftKey];
-    if (isTyping(event.target)) return;
+    if (isTyping(event.target) || belongsToControl(event)) return;
     if (event.ctrlKey || event.metaKey) {
       if (event.code === "KeyZ") this.act(event, () => void this.playground.undo());
       return;
@@ -47,10 +47,8 @@ export class KeyboardInput {
       this.act(event, single);
       return;
     }
-    if (event.altKey || !(event.target instanceof HTMLElement) || !event.target.matches("[role=slider], [role=radio]")) {
-      this.held.add(event.code);
-      if (event.altKey || event.code in ARROWS) event.preventDefault();
-    }
+    this.held.add(event.code);
+    if (event.altKey || event.code in ARROWS) event.preventDefault();
   }
 
   private act(event: KeyboardEvent, action: () => void): void {
@@ -201,6 +199,16 @@ export class KeyboardInput {
       if (y !== 0) hands.turn(HAND.keyboard, away, pad(up), y * SPIN_SPEED * seconds);
     }
   }
+}
+
+/** Keys by which sliders and sheets are used; the world gets the others. In a sheet, all but those that close it. */
+const CONTROL_KEYS = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"]);
+const SHEET_KEYS = new Set(["Escape", "KeyC", "KeyX", "Slash"]);
+
+function belongsToControl(event: KeyboardEvent): boolean {
+  if (sheet.value !== null) return !SHEET_KEYS.has(event.code) && event.key !== "?";
+  if (!(event.target instanceof HTMLElement)) return false;
+  return CONTROL_KEYS.has(event.code) && event.target.matches("input, select, [role=slider], [role=radio]");
 }
 
 function isTyping(target: EventTarget | null): boolean {
