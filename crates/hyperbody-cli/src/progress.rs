@@ -1,11 +1,24 @@
 //! A bar for work over a second, on standard error and only where that is a terminal.
 
+use std::io::{IsTerminal, Write, stderr};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Whether a bar stands on the terminal's last line.
+static SHOWN: AtomicBool = AtomicBool::new(false);
+
+/// Ends the line of a bar that nobody will clear any more, so that the shell does not write into it.
+pub(crate) fn end_line() {
+    if SHOWN.load(Ordering::Relaxed) && stderr().is_terminal() {
+        // There is nobody left to tell.
+        let _ = writeln!(stderr());
+    }
+}
 
 /// Progress through a known number of steps.
 pub(crate) struct Progress {
@@ -53,6 +66,7 @@ impl Progress {
         if !self.shown && self.start.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
             self.shown = true;
+            SHOWN.store(true, Ordering::Relaxed);
         }
     }
 }
@@ -60,5 +74,8 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+        if self.shown {
+            SHOWN.store(false, Ordering::Relaxed);
+        }
     }
 }

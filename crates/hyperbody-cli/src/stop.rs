@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 use std::time::Duration;
 
 use crate::files;
+use crate::progress;
 
 /// The program that helps, if one runs.
 static HELPER: Mutex<Option<Child>> = Mutex::new(None);
@@ -56,6 +57,7 @@ pub(crate) fn stop_helper() -> MutexGuard<'static, Option<Child>> {
 fn stop(status: i32) {
     let _helper = stop_helper();
     let _drafts = files::remove_drafts();
+    progress::end_line();
     std::process::exit(status);
 }
 

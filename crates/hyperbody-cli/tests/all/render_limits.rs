@@ -197,3 +197,37 @@ fn a_film_that_is_stopped_leaves_nothing_behind() {
         assert_eq!(names(), Vec::<String>::new(), "after {signal}");
     }
 }
+
+/// What stops the program at a terminal leaves the shell a line of its own, below the bar.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_bar_ends_its_line_when_the_program_is_stopped() {
+    let folder = folder("terminal");
+    let [film, pid, seen] = ["film.apng", "pid", "seen"].map(|name| folder.join(name));
+    let program = env!("CARGO_BIN_EXE_hyperbody");
+    let render = format!("exec {program} render tumble4d --seconds 60 --width 96 -o {}", film.display());
+    std::fs::write(folder.join("line.sh"), format!("echo $$ > {}\n{render}\n", pid.display())).unwrap();
+    let line = format!("sh {}", folder.join("line.sh").display());
+    // The program `script` of util-linux gives a terminal, and writes down what is shown on it.
+    let child = std::process::Command::new("script")
+        .args(["-qefc", &line, seen.to_str().unwrap()])
+        .stdin(std::process::Stdio::null())
+        .stdout(std::process::Stdio::null())
+        .spawn();
+    let Ok(mut child) = child else {
+        eprintln!("there is no program `script`, and so no terminal");
+        return;
+    };
+    let start = Instant::now();
+    let shown = || String::from_utf8_lossy(&std::fs::read(&seen).unwrap_or_default()).into_owned();
+    while !shown().contains("left") {
+        assert!(start.elapsed() < Duration::from_secs(60), "the bar is shown: {}", shown());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let pid = std::fs::read_to_string(&pid).unwrap();
+    assert!(std::process::Command::new("kill").args(["-INT", pid.trim()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let shown = shown();
+    let bar = shown.rfind(" left").expect("it was shown");
+    assert!(shown[bar..].contains('\n'), "{:?}", &shown[bar..]);
+}
