@@ -59,14 +59,14 @@ fn an_unknown_name_gets_the_nearest() {
 #[test]
 fn a_snapshot_is_good_for_worlds_of_its_dimension_only() {
     let world = |name: &str| AnyWorld::new(&built_in(name).unwrap(), 1).unwrap();
-    let (mut hello, mut cradle) = (world("hello4d"), world("cradle2d"));
-    hello.step();
-    let snapshot = hello.snapshot();
+    let (mut stack, mut cradle) = (world("stack4d"), world("cradle2d"));
+    stack.step();
+    let snapshot = stack.snapshot();
     let before = cradle.state_hash();
     let refused = cradle.restore(&snapshot).unwrap_err().to_string();
     assert!(refused.contains("of the snapshot is 4, of this world 2"), "{refused}");
     assert_eq!(cradle.state_hash(), before);
-    let mut other = world("hello4d");
+    let mut other = world("stack4d");
     other.restore(&snapshot).unwrap();
-    assert_eq!((other.state_hash(), other.step_count()), (hello.state_hash(), 1));
+    assert_eq!((other.state_hash(), other.step_count()), (stack.state_hash(), 1));
 }
