@@ -62,16 +62,29 @@ pub(crate) fn target_directory() -> Outcome<PathBuf> {
     Ok(directory.into())
 }
 
-/// Builds the program `hyperbody` and returns its path. Out of the whole workspace, as the tests are: chosen by its package
-/// alone, its dependencies would have fewer features, and everything would be built a second time.
+/// Builds the program `hyperbody` and returns its path.
 pub(crate) fn build_hyperbody(release: bool) -> Outcome<PathBuf> {
-    let mut arguments = vec!["build", "--quiet", "--workspace", "--bin", "hyperbody"];
+    build(&["--bin", "hyperbody"], release)
+}
+
+/// Builds an example and returns its path.
+pub(crate) fn build_example(name: &str, release: bool) -> Outcome<PathBuf> {
+    build(&["--example", name], release)
+}
+
+/// Out of the whole workspace, as the tests are: chosen by its package alone, a program's dependencies would have fewer features,
+/// and everything would be built a second time.
+fn build([kind, name]: &[&str; 2], release: bool) -> Outcome<PathBuf> {
+    let mut arguments = vec!["build", "--quiet", "--workspace", kind, name];
     if release {
         arguments.push("--release");
     }
     run(&mut cargo(&arguments))?;
-    let profile = if release { "release" } else { "debug" };
-    Ok(target_directory()?.join(profile).join(format!("hyperbody{}", std::env::consts::EXE_SUFFIX)))
+    let mut path = target_directory()?.join(if release { "release" } else { "debug" });
+    if *kind == "--example" {
+        path.push("examples");
+    }
+    Ok(path.join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
 }
 
 fn line_of(command: &Command) -> String {

@@ -1,10 +1,11 @@
 //! `cargo xtask test`: the one command that says whether the tree is sound; `.ci/run` calls it too.
 
+use std::process::Command;
 use std::time::Instant;
 
 use clap::Args;
 
-use crate::process::{cargo, is_ci, run as run_command, succeeds};
+use crate::process::{build_example, cargo, is_ci, run as run_command, succeeds};
 use crate::{Outcome, figures, hashes, pictures, playground, scenes};
 
 #[derive(Args)]
@@ -87,7 +88,7 @@ fn engine_in_release() -> Outcome {
 }
 
 fn tour() -> Outcome {
-    cargo_run(&["run", "--quiet", "--package", "hyperbody", "--example", "tour"])
+    run_command(&mut Command::new(build_example("tour", false)?))
 }
 
 fn documentation() -> Outcome {
@@ -104,7 +105,7 @@ fn component_is_there(component: &str) -> Outcome<bool> {
     if !is_ci() {
         return Ok(false);
     }
-    let installed = succeeds(std::process::Command::new("rustup").args(["component", "add", component]));
+    let installed = succeeds(Command::new("rustup").args(["component", "add", component]));
     if installed && is_there() {
         return Ok(true);
     }
