@@ -10,7 +10,7 @@ use crate::{Outcome, figures, hashes, pictures, playground, scenes};
 
 #[derive(Args)]
 pub(crate) struct TestArguments {
-    /// Only format, lints and the tests in debug: for the minutes between two edits
+    /// Only format, lints, the tests in debug and the tour: for the minutes between two edits
     #[arg(long)]
     quick: bool,
 }
@@ -35,7 +35,7 @@ const STAGES: [Stage; 11] = [
     Stage { name: "lints", component: Some("clippy"), quick: true, action: lints },
     Stage { name: "documentation", component: None, quick: false, action: documentation },
     Stage { name: "tests, debug", component: None, quick: true, action: || cargo_run(&["test", "--workspace"]) },
-    Stage { name: "tour of examples", component: None, quick: false, action: tour },
+    Stage { name: "tour of examples", component: None, quick: true, action: tour },
     Stage { name: "tests, release", component: None, quick: false, action: engine_in_release },
     Stage { name: "generated files", component: None, quick: false, action: scenes::check },
     Stage { name: "pictures", component: None, quick: false, action: pictures::check },
