@@ -6,7 +6,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use crate::Outcome;
-use crate::process::{build_example, build_hyperbody, read, run};
+use crate::process::{build_hyperbody, cargo, read, run};
 
 /// Long enough that every built-in scene has met its floor.
 const STEPS: &str = "90";
@@ -36,7 +36,7 @@ pub(crate) fn check() -> Outcome {
     }
     if wrong.is_empty() {
         println!("    {} scenes, five runs each: every hash equal", names.len());
-        run(&mut Command::new(build_example("snapshots", true)?))
+        run(&mut cargo(&["run", "--release", "--package", "hyperbody-scene", "--example", "snapshots"]))
     } else {
         Err(format!("runs of one scene differ:\n  {}", wrong.join("\n  ")))
     }

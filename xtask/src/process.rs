@@ -67,9 +67,9 @@ pub(crate) fn build_hyperbody(release: bool) -> Outcome<PathBuf> {
     build(&["--bin", "hyperbody"], release)
 }
 
-/// Builds an example and returns its path.
-pub(crate) fn build_example(name: &str, release: bool) -> Outcome<PathBuf> {
-    build(&["--example", name], release)
+/// Builds an example as the tests in debug have it, and returns its path.
+pub(crate) fn build_example(name: &str) -> Outcome<PathBuf> {
+    build(&["--example", name], false)
 }
 
 /// Out of the whole workspace, as the tests are: chosen by its package alone, a program's dependencies would have fewer features,

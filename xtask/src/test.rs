@@ -88,7 +88,7 @@ fn engine_in_release() -> Outcome {
 }
 
 fn tour() -> Outcome {
-    run_command(&mut Command::new(build_example("tour", false)?))
+    run_command(&mut Command::new(build_example("tour")?))
 }
 
 fn documentation() -> Outcome {
