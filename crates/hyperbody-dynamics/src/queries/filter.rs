@@ -3,7 +3,8 @@
 use crate::body::Body;
 use crate::{BodyHandle, BodyKind, Groups};
 
-/// What a body has to be for a query to see it: all that is set at once. The default sees every body.
+/// What a body has to be for a query to see it: all that is set at once. The default sees every body that is in a group and meets
+/// one: what has [`Groups::NONE`] no query sees.
 ///
 /// ```
 /// use hyperbody_dynamics::{BodyDef, Groups, QueryFilter, QueryScratch, World, WorldDef};
@@ -35,7 +36,7 @@ pub struct QueryFilter<'f> {
 }
 
 impl<'f> QueryFilter<'f> {
-    /// Sees every body.
+    /// Sees every body but those with [`Groups::NONE`].
     pub const ALL: QueryFilter<'static> = QueryFilter {
         groups: Groups::ALL,
         exclude: None,
