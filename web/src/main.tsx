@@ -14,7 +14,8 @@ import { sceneInLink } from "./scenes/library";
 import { App, Failure } from "./ui/app";
 import { PlaygroundProvider } from "./ui/context";
 import { acceptScenes } from "./ui/drop";
-import { runText } from "./ui/editor";
+import { offerLost, runText } from "./ui/editor";
+import { cameInLink, followScene } from "./app/address";
 import { offerReadOnly } from "./app/inspection";
 import "./ui/styles.css";
 
@@ -47,6 +48,11 @@ function start(): void {
   acceptScenes(playground);
   xr.prepare(playground);
   followSettings(playground);
+  followScene(playground);
+  effect(() => {
+    if (playground.lost.value !== null) offerLost(playground.lost.value);
+  });
+  addEventListener("hashchange", () => void runLink(playground));
   offerReadOnly(playground);
   render(<PlaygroundProvider value={playground}><App /></PlaygroundProvider>, root);
   playground.start();
@@ -67,7 +73,7 @@ async function begin(playground: Playground): Promise<void> {
     playground.builtins.value = builtins;
     await loadFirst(playground);
   } catch (error) {
-    playground.failure.value ??= error instanceof Error ? error.message : String(error);
+    playground.failure.value ??= { kind: "start", message: error instanceof Error ? error.message : String(error) };
   }
 }
 
@@ -79,12 +85,19 @@ async function loadFirst(playground: Playground): Promise<void> {
   const names = allScenes(playground.builtins.value).map(({ name }) => name);
   const asked = options.get("scene");
   const first = [asked, ...FIRST_SCENES].find((name) => name !== null && names.includes(name)) ?? names[0];
+  await runLink(playground);
+  if (!playground.scene.value) await playground.open(first);
+}
+
+/** Runs the scene in the address, if there is one. */
+async function runLink(playground: Playground): Promise<void> {
   const linked = await sceneInLink(location.hash).catch(() => {
     playground.say(t().badLink);
     return null;
   });
-  if (linked) await runText(playground, linked);
-  if (!playground.scene.value) await playground.open(first);
+  if (!linked) return;
+  cameInLink(linked);
+  await runText(playground, linked);
 }
 
 start();

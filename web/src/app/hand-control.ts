@@ -1,6 +1,7 @@
 // Hands as the page knows them: where each wants its body, in the slice's own coordinates. Kept in the slice, a held body
 // goes and turns with the slice when that moves.
 import type { EngineClient } from "../engine/client";
+import { wordsOf } from "../i18n";
 import { toFrame, toWorld, type SliceFrame } from "./slice-frame";
 
 /** Rows of an n×n matrix. */
@@ -35,9 +36,9 @@ export class HandControl {
   /** Takes hold of a body at a world point. */
   grab(hand: number, body: number, point: readonly number[], turns: boolean): void {
     this.hands.set(hand, { body, place: toFrame(this.frame(), point), attitude: identity(point.length), turns });
-    this.client.request("grab", { hand, body, point: [...point] }).catch((reason: Error) => {
+    this.client.request("grab", { hand, body, point: [...point] }).catch((reason: unknown) => {
       this.hands.delete(hand);
-      this.refused(reason.message);
+      this.refused(wordsOf(reason));
     });
   }
 

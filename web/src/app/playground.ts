@@ -1,18 +1,19 @@
 // The running playground: the engine's client, the stage, the slice and the hands, tied together once a frame. Panels and
 // input call its methods and read its signals; nothing here knows of buttons or pointers.
-import { signal } from "@preact/signals";
+import { batch, signal } from "@preact/signals";
 import { Vector3, type Ray } from "three";
 import type { EngineClient } from "../engine/client";
-import { RefusedError } from "../engine/client";
 import type { BodyDescription, BuiltIn, Frame, SceneDescription, Selected } from "../engine/protocol";
 import { Stage } from "../view/stage";
 import { framing } from "../view/framing";
 import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
 import { HAND, HandControl } from "./hand-control";
+import { t, wordsOf } from "../i18n";
 import { textOfOwn } from "../scenes/own";
 import { Plots } from "./plots";
 import { QualityGuard } from "./quality";
+import { Recovery } from "./recovery";
 import { calm, settings } from "./settings";
 import { SliceControl } from "./slice-control";
 import { toFrame, toWorld, type SliceFrame } from "./slice-frame";
@@ -28,6 +29,17 @@ const OFF_CENTRE = 0.3;
 
 /** A longer pause between two pictures is no motion: the tab was hidden. */
 const LONGEST_FRAME = 0.1;
+
+/** What runs after a scene has stopped the engine twice: built in, and small. */
+const SAFE_SCENE = "dice4d";
+
+/** A scene that is asked for: built in (a name and no text), the page's own (both), or from elsewhere (a text). */
+interface Load {
+  name: string | null;
+  text: string | null;
+  /** From its start, with all that was chosen. */
+  again: boolean;
+}
 
 /** What the panels show of a frame. */
 export interface Readout {
@@ -59,7 +71,10 @@ export class Playground {
   readonly gravity = signal<readonly number[]>([]);
   readonly flatland = signal(false);
   readonly notice = signal<string | null>(null);
-  readonly failure = signal<string | null>(null);
+  /** Why nothing runs: the engine cannot start here, or has stopped too often. */
+  readonly failure = signal<{ kind: "start" | "stopped"; message: string } | null>(null);
+  /** The text of a scene that keeps stopping the engine: it is not lost. */
+  readonly lost = signal<string | null>(null);
   readonly plots = new Plots();
   readonly stage: Stage;
   readonly slice = new SliceControl();
@@ -72,9 +87,13 @@ export class Playground {
   readonly onPicture = new Set<(seconds: number) => void>();
   private pictureWanted: ((picture: Blob) => void) | null = null;
   private unframed = false;
-  /** Starts from the beginning that are under way. */
-  private resets = 0;
-  private opening: string | null = null;
+  /** Loads that the worker has been asked for, in its order. */
+  private readonly loads: Load[] = [];
+  /** What runs, for a new start. */
+  private running: Load | null = null;
+  /** Counts wishes for a scene: the latest one wins. */
+  private wishes = 0;
+  private readonly recovery = new Recovery();
   private fresh = false;
   private lastReadout = 0;
   private lastPicture = 0;
@@ -86,11 +105,13 @@ export class Playground {
     this.hands = new HandControl(client, () => this.drawnFrame(), (reason) => this.say(reason));
     this.slice.pivot = () => this.pivot();
     client.onFrame((frame) => this.take(frame));
-    client.onScene((scene, loaded) => this.takeScene(scene, loaded));
-    client.onError((message) => (this.failure.value = message));
+    client.onScene((scene, loaded) => batch(() => this.takeScene(scene, loaded)));
+    client.onFailure((message) => (this.failure.value = { kind: "start", message }));
+    client.onCrash((message) => void this.recover(message));
   }
 
   start(): void {
+    document.addEventListener("visibilitychange", () => this.sendRest());
     this.stage.renderer.setAnimationLoop((time: number) => this.picture(time));
   }
 
@@ -105,29 +126,79 @@ export class Playground {
 
   // --- what a person does ---------------------------------------------------------------------------------------------
 
-  /** Opens a scene of the gallery. */
+  /** Opens a scene of the gallery; nothing happens if another one is asked for meanwhile. */
   async open(name: string): Promise<void> {
-    const text = await textOfOwn(name);
-    this.opening = name;
-    const opened = await this.attempt(text === null ? this.client.request("loadBuiltin", { name }) : this.client.request("load", { text }));
-    if (!opened) this.opening = this.sceneName.value;
+    const wish = ++this.wishes;
+    const text = await this.attempt(textOfOwn(name), () => t().notFetched);
+    if (text === undefined || wish !== this.wishes) return;
+    await this.attempt(this.load({ name, text, again: false }));
   }
 
   /** Loads scene text; rejects with a `RefusedError` that names the line, and the running scene goes on. */
   async loadText(text: string): Promise<void> {
-    this.opening = null;
-    await this.client.request("load", { text });
+    this.wishes += 1;
+    await this.load({ name: null, text, again: false });
+  }
+
+  /** The text that the running scene was loaded from, where the page has it. */
+  get text(): string | null {
+    return this.running?.text ?? null;
   }
 
   /** The scene from its start; slice, camera and choices stay. */
   reset(): void {
-    this.resets += 1;
-    void this.attempt(this.client.request("reset", {})).then(() => (this.resets -= 1));
+    if (this.running) void this.attempt(this.load({ ...this.running, again: true }));
+  }
+
+  /** Asks the worker, whose scenes come in the order in which they were asked for. */
+  private async load(load: Load): Promise<void> {
+    this.loads.push(load);
+    const { client } = this;
+    try {
+      if (load.again) await client.request("reset", {});
+      else if (load.text !== null) await client.request("load", { text: load.text });
+      else await client.request("loadBuiltin", { name: load.name ?? "" });
+    } finally {
+      // Refused: no scene has come that would have taken it.
+      const at = this.loads.indexOf(load);
+      if (at >= 0) this.loads.splice(at, 1);
+    }
+  }
+
+  /** The engine has stopped by an error of its own: a new one gets the scene, unless the scene is what stops it. */
+  private async recover(message: string): Promise<void> {
+    const { running } = this;
+    const remedy = this.recovery.after(performance.now(), running?.name ?? running?.text ?? "");
+    this.hands.forget();
+    this.loads.length = 0;
+    if (remedy !== "again" && running?.text) this.lost.value = running.text;
+    if (remedy === "stop") this.failure.value = { kind: "stopped", message };
+    else await this.startAgain(remedy === "again" ? running : null);
+  }
+
+  /** A new engine after the last one stopped, when a person asks for it. */
+  async startOver(): Promise<void> {
+    this.recovery.forget();
+    this.failure.value = null;
+    await this.startAgain(null);
+  }
+
+  /** A new engine, with a scene, or with one that comes with it. */
+  private async startAgain(load: Load | null): Promise<void> {
+    try {
+      await this.client.restart();
+      this.paused.value = false;
+      this.sendRest();
+      await this.load(load ? { ...load, again: false } : { name: SAFE_SCENE, text: null, again: false });
+      this.say(load ? t().restarted : t().restartedElsewhere);
+    } catch (error) {
+      this.say(wordsOf(error));
+    }
   }
 
   async undo(): Promise<void> {
     const answer = await this.attempt(this.client.request("undo", {}));
-    if (answer?.undone) this.say(answer.undone);
+    if (answer?.undone) this.say(t().undone(answer.undone));
   }
 
   /** Stops time, or goes on from the moment that is shown. */
@@ -279,12 +350,13 @@ export class Playground {
     return null;
   }
 
-  private async attempt<T>(request: Promise<T>): Promise<T | null> {
+  /** Says why something did not work; undefined then. */
+  private async attempt<T>(request: Promise<T>, words: (error: unknown) => string = wordsOf): Promise<T | undefined> {
     try {
       return await request;
     } catch (error) {
-      if (error instanceof RefusedError || error instanceof Error) this.say(error.message);
-      return null;
+      this.say(words(error));
+      return undefined;
     }
   }
 
@@ -311,6 +383,11 @@ export class Playground {
     // The canvas still holds what was drawn: it is cleared once this callback returns.
     if (this.pictureWanted) this.stage.renderer.domElement.toBlob(handOver(this.pictureWanted), "image/png");
     this.pictureWanted = null;
+  }
+
+  /** The worker rests while the page is hidden, unless a headset shows it. */
+  private sendRest(): void {
+    this.client.send("rest", { on: document.hidden && !this.stage.renderer.xr.isPresenting });
   }
 
   /** Tells the worker which slice to cut; Flatland cuts here, out of the whole world. */
@@ -361,9 +438,11 @@ export class Playground {
   }
 
   private takeScene(scene: SceneDescription, loaded: boolean): void {
+    const load = loaded ? this.loads.shift() : undefined;
     this.scene.value = scene;
-    const again = this.resets > 0;
-    if (loaded && !again) this.begin(scene);
+    const again = load?.again ?? false;
+    if (load) this.running = load;
+    if (loaded && !again) this.begin(scene, load?.name ?? null);
     else this.stage.styles.setBodies(scene.bodies);
     if (loaded) this.hands.forget();
     if (!scene.bodies.some((body) => body.id === this.selected.value)) this.select(null);
@@ -377,8 +456,8 @@ export class Playground {
     this.client.send("select", { body: this.selected.value });
   }
 
-  private begin(scene: SceneDescription): void {
-    this.sceneName.value = this.opening;
+  private begin(scene: SceneDescription, name: string | null): void {
+    this.sceneName.value = name;
     this.select(null);
     this.gravity.value = scene.gravity;
     this.setFlatland(this.sceneName.value?.startsWith("flatland") ?? false);

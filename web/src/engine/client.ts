@@ -6,12 +6,14 @@ import type { BuiltIn, Commands, Frame, FromWorker, Refusal, Requests, SceneDesc
 export class RefusedError extends Error {
   readonly line: number | undefined;
   readonly column: number | undefined;
+  readonly code: string | undefined;
 
   constructor(refusal: Refusal) {
     super(refusal.message);
     this.name = "RefusedError";
     this.line = refusal.line;
     this.column = refusal.column;
+    this.code = refusal.code;
   }
 }
 
@@ -29,6 +31,11 @@ export interface Channel {
   terminate(): void;
 }
 
+/** The worker of this package. */
+const startWorker = (): Channel => new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "engine" }) as Channel;
+
+type Ready = { version: string; builtins: BuiltIn[] };
+
 /** A world in a worker. */
 export class EngineClient {
   /** The newest frame; its arrays are valid until the next one arrives. */
@@ -36,35 +43,54 @@ export class EngineClient {
   /** The scene that is running. */
   scene: SceneDescription | null = null;
 
-  private readonly channel: Channel;
+  private channel!: Channel;
   private readonly waiting = new Map<number, Waiting>();
   private readonly frameListeners = new Set<Listener<Frame>>();
   private readonly sceneListeners = new Set<(scene: SceneDescription, loaded: boolean) => void>();
-  private readonly errorListeners = new Set<Listener<string>>();
+  private readonly failureListeners = new Set<Listener<string>>();
+  private readonly crashListeners = new Set<Listener<string>>();
   private lastRequest = 0;
-  private readonly becomesReady: Promise<{ version: string; builtins: BuiltIn[] }>;
-  private resolveReady!: (value: { version: string; builtins: BuiltIn[] }) => void;
+  /** The frame whose buffers the running worker gets back. */
+  private lent: Frame | null = null;
+  private up = false;
+  private becomesReady!: Promise<Ready>;
+  private resolveReady!: (value: Ready) => void;
   private rejectReady!: (reason: Error) => void;
 
-  /** Starts the worker of this package, or speaks through a channel that is given. */
-  constructor(channel?: Channel) {
+  /** Starts the worker of this package, or speaks through what `open` gives. */
+  constructor(private readonly open: () => Channel = startWorker) {
+    this.connect();
+  }
+
+  private connect(): void {
+    this.up = false;
+    this.lent = null;
     this.becomesReady = new Promise((resolve, reject) => {
       this.resolveReady = resolve;
       this.rejectReady = reject;
     });
     // The failure also reaches those who never ask.
     this.becomesReady.catch(() => undefined);
-    this.channel =
-      channel ?? (new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "engine" }) as Channel);
-    this.channel.addEventListener("message", (event: MessageEvent<FromWorker>) => this.receive(event.data));
-    this.channel.addEventListener("error", (event: ErrorEvent) =>
-      this.fail(event.message || "the worker of the engine could not be loaded"),
-    );
+    const channel = this.open();
+    this.channel = channel;
+    // What a worker that was replaced has left to say is of no use.
+    channel.addEventListener("message", (event: MessageEvent<FromWorker>) => this.channel === channel && this.receive(event.data));
+    channel.addEventListener("error", (event: ErrorEvent) => {
+      if (this.channel === channel) this.break(event.message || "the worker of the engine could not be loaded");
+    });
   }
 
   /** The built-in scenes, once the engine is up. Rejects where wasm cannot run. */
-  ready(): Promise<{ version: string; builtins: BuiltIn[] }> {
+  ready(): Promise<Ready> {
     return this.becomesReady;
+  }
+
+  /** A new worker in place of this one; the last frame stays, and a scene has to be loaded. */
+  restart(): Promise<Ready> {
+    this.channel.terminate();
+    this.rejectAll(new Error("the engine was started again"));
+    this.connect();
+    return this.ready();
   }
 
   /** Sends a message that is not answered. */
@@ -94,10 +120,16 @@ export class EngineClient {
     return () => this.sceneListeners.delete(listener);
   }
 
-  /** Calls `listener` when the engine stops for good. */
-  onError(listener: Listener<string>): () => void {
-    this.errorListeners.add(listener);
-    return () => this.errorListeners.delete(listener);
+  /** Calls `listener` when the engine cannot run in this browser. */
+  onFailure(listener: Listener<string>): () => void {
+    this.failureListeners.add(listener);
+    return () => this.failureListeners.delete(listener);
+  }
+
+  /** Calls `listener` when an engine that ran has stopped by an error of its own: `restart` goes on. */
+  onCrash(listener: Listener<string>): () => void {
+    this.crashListeners.add(listener);
+    return () => this.crashListeners.delete(listener);
   }
 
   /** Ends the worker. */
@@ -109,22 +141,27 @@ export class EngineClient {
   private receive(message: FromWorker): void {
     switch (message.type) {
       case "ready":
+        this.up = true;
         this.resolveReady({ version: message.version, builtins: message.builtins });
         break;
       case "failed":
-        this.fail(message.message);
+        this.break(message.message);
         break;
       case "scene":
         this.scene = message.scene;
         for (const listener of this.sceneListeners) listener(message.scene, message.loaded);
         break;
       case "frame": {
-        const old = this.frame;
-        this.frame = message.frame;
-        for (const listener of this.frameListeners) listener(message.frame);
-        if (old) {
-          const buffers = buffersOf(old);
-          this.send("recycle", { buffers }, buffers);
+        const old = this.lent;
+        this.frame = this.lent = message.frame;
+        try {
+          for (const listener of this.frameListeners) listener(message.frame);
+        } finally {
+          // Whatever a listener does: a worker that gets nothing back sends nothing more.
+          if (old) {
+            const buffers = buffersOf(old);
+            this.send("recycle", { buffers }, buffers);
+          }
         }
         break;
       }
@@ -143,11 +180,11 @@ export class EngineClient {
     return waiting;
   }
 
-  private fail(message: string): void {
+  private break(message: string): void {
     const error = new Error(message);
     this.rejectReady(error);
     this.rejectAll(error);
-    for (const listener of this.errorListeners) listener(message);
+    for (const listener of this.up ? this.crashListeners : this.failureListeners) listener(message);
   }
 
   private rejectAll(error: Error): void {

@@ -37,6 +37,9 @@ interface Reply {
 /** Steps of one round take at most this, ms: a frame must come now and then, however slow the machine is. */
 const STEP_BUDGET_MS = 30;
 
+/** While nobody looks, messages are all there is to do, ms. */
+const REST_MS = 250;
+
 /** Frames that the page has not given back: it is behind, and gets no more until it has. */
 const MOST_UNDER_WAY = 2;
 
@@ -46,6 +49,7 @@ export class EngineLoop {
   private readonly pool = new BufferPool();
   private scene: SceneDescription | null = null;
   private paused = false;
+  private resting = false;
   private ghosts = false;
   private wires = false;
   private frames = 0;
@@ -67,6 +71,11 @@ export class EngineLoop {
         return;
       case "pause":
         this.setPaused(message.on);
+        return;
+      case "rest":
+        if (!message.on) this.pacer.restart();
+        this.resting = message.on;
+        this.dirty = true;
         return;
       case "speed":
         this.pacer.setSpeed(message.factor);
@@ -94,6 +103,7 @@ export class EngineLoop {
   /** Does what is due and says in how many milliseconds it wants to be called again. */
   round(): number {
     const { clock } = this.around;
+    if (this.resting) return REST_MS;
     const now = clock();
     if (this.scene && !this.paused) {
       this.pacer.run(now, this.scene.dt, STEP_BUDGET_MS, clock, () => this.step());

@@ -91,6 +91,8 @@ export interface SceneDescription {
 /** Refused: what is wrong, in one English line with the remedy. */
 export interface Refusal {
   message: string;
+  /** What it is about, where the page has words of its own for it: "past", "frozen", … */
+  code?: string;
   /** Of the scene's text, from 1, where it is known. */
   line?: number;
   column?: number;
@@ -169,6 +171,8 @@ export interface Commands {
   release: { hand: number };
   /** The body that `Frame.selected` tells of. */
   select: { body: number | null };
+  /** Nobody looks: no steps and no frames until somebody does. Apart from `pause`, which is the person's. */
+  rest: { on: boolean };
   /** Gives the buffers of a frame back, for the worker to fill again. `EngineClient` does this by itself. */
   recycle: { buffers: ArrayBuffer[] };
 }
@@ -311,7 +315,7 @@ export type ToWorker =
 export type FromWorker =
   /** The world is up; a scene has to be loaded. */
   | { type: "ready"; version: string; builtins: BuiltIn[] }
-  /** wasm cannot run here: what is missing. */
+  /** Before `ready`: wasm cannot run here, and what is missing. After it: the engine has stopped by an error of its own. */
   | { type: "failed"; message: string }
   /** The list of bodies is new: after loads, spawns, removals and undo. Comes before the first frame with it. */
   | { type: "scene"; scene: SceneDescription; loaded: boolean }

@@ -18,11 +18,25 @@ const scope = globalThis as unknown as {
 // What arrives before the engine is up waits for it.
 const early: ToWorker[] = [];
 let loop: EngineLoop | null = null;
+let broken = false;
 
 scope.addEventListener("message", (event) => {
-  if (loop) loop.receive(event.data);
+  if (loop) guarded(loop, (running) => running.receive(event.data));
   else early.push(event.data);
 });
+
+/** A program that has stopped in the middle of something is not asked again: the page is told, and starts another. */
+function guarded(running: EngineLoop, act: (running: EngineLoop) => void): void {
+  if (broken) return;
+  try {
+    act(running);
+  } catch (error) {
+    broken = true;
+    scope.postMessage({ type: "failed", message: reasonOf(error) });
+  }
+}
+
+const reasonOf = (error: unknown) => (error instanceof Error ? error.message : String(error));
 
 async function start(): Promise<void> {
   if (typeof WebAssembly === "undefined") throw new Error("This browser has no WebAssembly, which the engine runs in.");
@@ -38,15 +52,15 @@ async function start(): Promise<void> {
   });
   const builtins = JSON.parse(Engine.builtins()) as BuiltIn[];
   scope.postMessage({ type: "ready", version: Engine.version(), builtins });
-  for (const message of early.splice(0)) loop.receive(message);
-  beat();
+  const running = loop;
+  for (const message of early.splice(0)) guarded(running, () => running.receive(message));
+  beat(running);
 }
 
-function beat(): void {
-  const pause = loop ? loop.round() : 16;
-  setTimeout(beat, pause);
+function beat(running: EngineLoop): void {
+  let pause = 16;
+  guarded(running, () => (pause = running.round()));
+  if (!broken) setTimeout(() => beat(running), pause);
 }
 
-start().catch((error: unknown) => {
-  scope.postMessage({ type: "failed", message: error instanceof Error ? error.message : String(error) });
-});
+start().catch((error: unknown) => scope.postMessage({ type: "failed", message: reasonOf(error) }));

@@ -87,7 +87,6 @@ export const en = {
   stopRecording: "Stop recording",
   noRecorder: "This browser cannot record video.",
   saved: (name: string) => `Saved ${name}`,
-  exportEmpty: "The slice cuts no body: move it, then export.",
 
   editor: "Scene editor",
   editorHint: "Scene JSON. Drop a file anywhere on the page, paste, or edit.",
@@ -103,6 +102,8 @@ export const en = {
   mine: "Yours",
   sceneSaved: (name: string) => `“${name}” is kept in this browser`,
   storageClosed: "This browser does not let the page keep things.",
+  linkTooLong: "This scene is too large for a link. Download it as a file instead.",
+  tooLarge: (name: string, most: string) => `${name} is larger than ${most} MB; no scene is.`,
   badLink: "The scene in this link is damaged; here is another one.",
 
   sound: "Sound of impacts",
@@ -121,6 +122,23 @@ export const en = {
   noWebGl: "This browser shows no WebGL, which the page draws with. Try a current Chrome, Edge, Firefox or Safari with hardware acceleration on.",
   noEngine: "The physics engine could not start",
   noEngineHint: "It needs WebAssembly with SIMD: Chrome 91, Edge 91, Firefox 89, Safari 16.4 or later.",
+  restarted: "The physics engine had an error and was started again; the scene begins anew.",
+  restartedElsewhere: "That scene stops the physics engine each time, so another one runs now. Its text is kept in the editor.",
+  stopped: "The physics engine keeps stopping",
+  stoppedText: "It was started again several times and had an error each time. Nothing of yours is lost: the text of the scene is kept in the editor. Start it again with a scene that comes with it, or reload the page.",
+  startOver: "Start the engine again",
+  stopsEngine: "The physics engine has an error with this scene. Change it before you run it again.",
+  notFetched: "This scene could not be fetched. Does the server still run, or is the net away?",
+  undone: (what: string) => `Taken back: ${({ grab: "pulling", spawn: "adding a body", remove: "deleting", freeze: "freezing", turn: "turning" } as Record<string, string>)[what] ?? what}`,
+  refused: {
+    past: "An earlier moment is shown. Run to go on from it, or slide back to now, to change something.",
+    frozen: "This body is frozen: let it go first.",
+    immovable: "Nothing moves this body.",
+    gone: "This body is no longer there.",
+    full: "The world is full: delete some bodies, or start the scene again.",
+    flat: "A flat slice makes no solid: files need worlds of three dimensions or more.",
+    nothing: "The slice cuts nothing: move it to a body, then export.",
+  } as Record<string, string>,
   contextLost: "The graphics were reset; they come back in a moment.",
 
   group: {

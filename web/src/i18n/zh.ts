@@ -88,7 +88,6 @@ export const zh: Words = {
   stopRecording: "停止录制",
   noRecorder: "此浏览器不能录制视频。",
   saved: (name) => `已保存 ${name}`,
-  exportEmpty: "切片没有切到任何物体：请先移动切片再导出。",
 
   editor: "场景编辑器",
   editorHint: "场景 JSON。把文件拖到页面任意处、粘贴，或直接编辑。",
@@ -104,6 +103,8 @@ export const zh: Words = {
   mine: "我的",
   sceneSaved: (name) => `“${name}”已存在此浏览器中`,
   storageClosed: "此浏览器不允许页面保存内容。",
+  linkTooLong: "这个场景太大，放不进链接；请下载为文件。",
+  tooLarge: (name, most) => `${name} 超过 ${most} MB，不会是场景。`,
   badLink: "链接中的场景已损坏，先看看另一个吧。",
 
   sound: "碰撞声",
@@ -122,6 +123,18 @@ export const zh: Words = {
   noWebGl: "此浏览器没有 WebGL，页面无法绘制。请换用新版 Chrome、Edge、Firefox 或 Safari，并打开硬件加速。",
   noEngine: "物理引擎无法启动",
   noEngineHint: "它需要支持 SIMD 的 WebAssembly：Chrome 91、Edge 91、Firefox 89、Safari 16.4 或更新的版本。",
+  restarted: "物理引擎出错后已重新启动，场景从头开始。",
+  restartedElsewhere: "那个场景每次都会让物理引擎停下，现在换了一个场景；它的文本保存在编辑器里。",
+  stopped: "物理引擎反复停止",
+  stoppedText: "引擎多次重启，每次都出错。您的内容没有丢：场景文本保存在编辑器里。可以用自带的场景重新启动，或刷新页面。",
+  startOver: "重新启动引擎",
+  stopsEngine: "这个场景会让物理引擎出错，请修改后再运行。",
+  notFetched: "取不到这个场景。服务器还在运行吗？网络通吗？",
+  undone: (what) => `已撤销：${({ grab: "拉动", spawn: "添加物体", remove: "删除", freeze: "固定", turn: "转动" } as Record<string, string>)[what] ?? what}`,
+  refused: {
+    past: "现在显示的是先前的时刻。要改动，请点“运行”从这里继续，或滑回“此刻”。", frozen: "这个物体已固定：请先松开它。", immovable: "没有什么能移动这个物体。", gone: "这个物体已经不在了。",
+    full: "世界已满：请删除一些物体，或重新开始。", flat: "平的切片不成立体：导出文件需要三维以上的世界。", nothing: "切片没有切到任何物体：请先移动切片再导出。",
+  },
   contextLost: "图形被系统重置，马上恢复。",
 
   group: {

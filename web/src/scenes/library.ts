@@ -5,6 +5,9 @@ import { signal } from "@preact/signals";
 const KEY = "hyperbody.scenes";
 const LINK = "#scene=";
 
+/** No scene is larger, bytes: the engine's own limits on bodies and vertices end before. */
+export const MOST_SCENE_BYTES = 8e6;
+
 export interface KeptScene {
   name: string;
   text: string;
@@ -62,7 +65,7 @@ export async function linkOf(text: string): Promise<string> {
   return LINK + btoa(characters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
-/** The scene in an address; null where there is none. Rejects where it is damaged. */
+/** The scene in an address; null where there is none. Rejects where it is damaged, or unpacks to more than any scene. */
 export async function sceneInLink(hash: string): Promise<string | null> {
   if (!hash.startsWith(LINK)) return null;
   const characters = atob(hash.slice(LINK.length).replaceAll("-", "+").replaceAll("_", "/"));
@@ -70,7 +73,17 @@ export async function sceneInLink(hash: string): Promise<string | null> {
   return new TextDecoder().decode(await through(packed, new DecompressionStream("deflate-raw")));
 }
 
+/** What comes out of a stream, as far as it may be a scene: a short link can unpack to gigabytes. */
 async function through(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStream | DecompressionStream): Promise<Uint8Array<ArrayBuffer>> {
-  const result = new Blob([bytes]).stream().pipeThrough(stream);
-  return new Uint8Array(await new Response(result).arrayBuffer());
+  const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader();
+  const parts: Uint8Array<ArrayBuffer>[] = [];
+  let size = 0;
+  for (let next = await reader.read(); !next.done; next = await reader.read()) {
+    parts.push(next.value);
+    size += next.value.byteLength;
+    if (size <= MOST_SCENE_BYTES) continue;
+    await reader.cancel();
+    throw new Error(`a scene of more than ${MOST_SCENE_BYTES} bytes`);
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
 }

@@ -21,7 +21,8 @@ import { Transport, Warnings } from "./transport";
 export function App() {
   const playground = usePlayground();
   const failure = playground.failure.value;
-  if (failure) return <Failure title={t().noEngine} text={failure} hint={t().noEngineHint} />;
+  if (failure?.kind === "start") return <Failure title={t().noEngine} text={failure.message} hint={t().noEngineHint} />;
+  if (failure) return <Failure title={t().stopped} text={t().stoppedText} hint={failure.message} again={() => void playground.startOver()} />;
   if (!playground.scene.value) return <p class="starting">{t().starting}</p>;
   return (
     <>
@@ -78,12 +79,13 @@ function FlatlandFrame() {
 }
 
 /** In place of everything: what is missing, and what helps. */
-export function Failure({ title, text, hint }: { title: string; text: string; hint?: string }) {
+export function Failure({ title, text, hint, again }: { title: string; text: string; hint?: string; again?: () => void }) {
   return (
     <div class="failure" role="alert">
       <h1>{title}</h1>
       <p>{text}</p>
       {hint && <p class="hint">{hint}</p>}
+      {again && <button type="button" class="button text primary" onClick={again}>{t().startOver}</button>}
     </div>
   );
 }

@@ -1,6 +1,7 @@
 // Scenes dropped onto the page as files, or pasted as text, run at once.
 import type { Playground } from "../app/playground";
 import { runText } from "./editor";
+import { sceneFile } from "./files";
 
 export function acceptScenes(playground: Playground): void {
   addEventListener("dragover", (event) => {
@@ -10,7 +11,7 @@ export function acceptScenes(playground: Playground): void {
     const file = event.dataTransfer?.files[0];
     if (!file) return;
     event.preventDefault();
-    void file.text().then((text) => runText(playground, text));
+    sceneFile(file).then((text) => runText(playground, text)).catch((error: Error) => playground.say(error.message));
   });
   addEventListener("paste", (event) => {
     if (event.target instanceof HTMLTextAreaElement || event.target instanceof HTMLInputElement) return;

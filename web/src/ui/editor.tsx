@@ -2,6 +2,7 @@
 // scene goes on. Keeps scenes in the browser and puts them into links.
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { cameInLink } from "../app/address";
 import type { Playground } from "../app/playground";
 import { RefusedError } from "../engine/client";
 import { t } from "../i18n";
@@ -27,6 +28,12 @@ export async function runText(playground: Playground, source: string): Promise<v
   }
 }
 
+/** Puts a scene that keeps stopping the engine into the editor, with what is wrong. */
+export function offerLost(source: string): void {
+  text.value = source;
+  problem.value = { message: t().stopsEngine, line: undefined };
+}
+
 async function takeCurrent(playground: Playground): Promise<void> {
   const answer = await playground.client.request("sceneText", {});
   text.value = answer.text;
@@ -34,8 +41,13 @@ async function takeCurrent(playground: Playground): Promise<void> {
 }
 
 async function share(playground: Playground): Promise<void> {
-  const link = await linkOf(text.value);
-  history.replaceState(null, "", link);
+  try {
+    history.replaceState(null, "", await linkOf(text.value));
+    cameInLink(text.value);
+  } catch {
+    playground.say(t().linkTooLong); // Browsers take addresses of a megabyte or two.
+    return;
+  }
   try {
     await navigator.clipboard.writeText(location.href);
     playground.say(t().linkCopied);
@@ -83,7 +95,7 @@ export function Editor() {
       <footer>
         <IconButton icon="play" kind="primary" text label={t().run} onPress={run} />
         <IconButton icon="undo" text label={t().current} onPress={() => void takeCurrent(playground)} />
-        <IconButton icon="code" text label={t().open} onPress={() => void chooseText(".json,application/json").then((found) => found && (text.value = found))} />
+        <IconButton icon="code" text label={t().open} onPress={() => void chooseText(".json,application/json").then((found) => found && (text.value = found)).catch((error: Error) => playground.say(error.message))} />
         <IconButton icon="save" text label={t().download} onPress={() => download(fileName(nameIn(text.value), "json"), text.value, "application/json")} />
         <IconButton
           icon="plus" text label={t().keep}

@@ -2,7 +2,7 @@
 import { toggleRecording, recording } from "../app/recorder";
 import { settings } from "../app/settings";
 import { tilt } from "../input/tilt";
-import { language, t } from "../i18n";
+import { language, t, wordsOf } from "../i18n";
 import { AXES, AXIS_COLOURS, short } from "./axes";
 import { usePlayground } from "./context";
 import { Dialog } from "./dialog";
@@ -133,7 +133,7 @@ function Files() {
       const { bytes } = await playground.client.request("export", { format });
       save(bytes, format, format === "stl" ? "model/stl" : "model/gltf-binary");
     } catch (error) {
-      playground.say(error instanceof Error ? error.message : t().exportEmpty);
+      playground.say(wordsOf(error));
     }
   };
   const record = () => {
