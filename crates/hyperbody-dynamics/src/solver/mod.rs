@@ -38,7 +38,7 @@ use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
-use contacts::{Block, ContactRows, Layout, PassTimes, Passes, Prepare};
+use contacts::{Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Solve, WarmStart};
 use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
 use lanes::Lanes;
@@ -245,7 +245,7 @@ impl<const N: usize> Solver<N> {
             self.warm_start_joints(Pass::Move, h);
             if substep == 0 {
                 let contacts = &mut self.contacts;
-                let pass = |state: &mut [Real]| width.run(|| Passes::<N>::warm_start(contacts, state));
+                let pass = |state: &mut [Real]| width.run(WarmStart::<N> { contacts, state });
                 self.pressed.watch::<N>(&mut self.state, pass);
             } else {
                 self.pressed.warm_start::<N>(&mut self.state);
@@ -261,14 +261,14 @@ impl<const N: usize> Solver<N> {
             self.solve_joints(Pass::Settle, substep, h);
             self.solve_contacts(&times);
             if substep + 1 == input.substeps {
-                width.run(|| Passes::<N>::bounce(&mut self.contacts, &mut self.state, &times));
+                width.run(Bounce::<N> { contacts: &mut self.contacts, state: &mut self.state, times: &times });
             }
         }
     }
 
     fn solve_contacts(&mut self, times: &PassTimes) {
         let (width, contacts) = (self.width, &mut self.contacts);
-        let pass = |state: &mut [Real]| width.run(|| Passes::<N>::solve(contacts, state, times));
+        let pass = |state: &mut [Real]| width.run(Solve::<N> { contacts, state, times });
         self.pressed.watch::<N>(&mut self.state, pass);
     }
 

@@ -23,7 +23,7 @@ use crate::pairs::Surface;
 pub(crate) use excess::excess;
 pub(crate) use layout::Layout;
 pub(crate) use prepare::{Prepare, store};
-pub(crate) use solve::{PassTimes, Passes};
+pub(crate) use solve::{Bounce, PassTimes, Solve, WarmStart};
 
 /// One group of contacts and where its rows are.
 #[derive(Clone, Copy, Debug)]

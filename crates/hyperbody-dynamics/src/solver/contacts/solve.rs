@@ -5,6 +5,7 @@ use super::pairing::Pairing;
 use super::{Block, ContactRows, Layout};
 use crate::solver::bodies::Sizes;
 use crate::solver::lanes::{Lanes, Real};
+use crate::solver::width::WidePass;
 
 /// Where a pass stands in the step: factors on the base part of rows.
 #[derive(Clone, Copy, Debug)]
@@ -28,15 +29,55 @@ pub(crate) struct PassTimes {
 
 const MAX: usize = crate::solver::bodies::MAX_PLANES;
 
+/// Applies the impulses that the rows hold.
+pub(crate) struct WarmStart<'a, const N: usize> {
+    pub(crate) contacts: &'a mut ContactRows,
+    pub(crate) state: &'a mut [Real],
+}
+
+/// One Gauss–Seidel sweep over all manifolds.
+pub(crate) struct Solve<'a, const N: usize> {
+    pub(crate) contacts: &'a mut ContactRows,
+    pub(crate) state: &'a mut [Real],
+    pub(crate) times: &'a PassTimes,
+}
+
+/// Gives back the share e of the approach speed at points that were pressed in this step.
+pub(crate) struct Bounce<'a, const N: usize> {
+    pub(crate) contacts: &'a mut ContactRows,
+    pub(crate) state: &'a mut [Real],
+    pub(crate) times: &'a PassTimes,
+}
+
+impl<const N: usize> WidePass for WarmStart<'_, N> {
+    #[inline(always)]
+    fn run(self) {
+        Passes::<N>::warm_start(self.contacts, self.state);
+    }
+}
+
+impl<const N: usize> WidePass for Solve<'_, N> {
+    #[inline(always)]
+    fn run(self) {
+        Passes::<N>::solve(self.contacts, self.state, self.times);
+    }
+}
+
+impl<const N: usize> WidePass for Bounce<'_, N> {
+    #[inline(always)]
+    fn run(self) {
+        Passes::<N>::bounce(self.contacts, self.state, self.times);
+    }
+}
+
 /// The passes for one dimension.
 pub(crate) struct Passes<const N: usize>;
 
 impl<const N: usize> Passes<N> {
     const K: usize = Sizes::<N>::K;
 
-    /// Applies the impulses that the rows hold.
     #[inline(always)]
-    pub(crate) fn warm_start(contacts: &mut ContactRows, state: &mut [Real]) {
+    fn warm_start(contacts: &mut ContactRows, state: &mut [Real]) {
         for block in &contacts.blocks {
             let rows = &contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
             let mut p = Pairing::<N>::gather(block, rows, state);
@@ -67,9 +108,8 @@ impl<const N: usize> Passes<N> {
         }
     }
 
-    /// One Gauss–Seidel sweep over all manifolds.
     #[inline(always)]
-    pub(crate) fn solve(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
+    fn solve(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
         let ContactRows { blocks, rows, problem } = contacts;
         for block in blocks.iter() {
             let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
@@ -371,9 +411,8 @@ impl<const N: usize> Passes<N> {
         Self::apply_to_field(block, head, &sum, p);
     }
 
-    /// Gives back the share e of the approach speed at points that were pressed in this step.
     #[inline(always)]
-    pub(crate) fn bounce(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
+    fn bounce(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
         let ContactRows { blocks, rows, problem } = contacts;
         let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
         let elapsed = Lanes::splat(times.elapsed);
