@@ -129,6 +129,13 @@ pub const RAY_GAP: f64 = 1e-15;
 /// every bit of a number.
 pub const MAX_RAY_TURNS: u32 = 64;
 
+/// Largest coordinate in a query, m. Squares and products of such lengths are far from the largest numbers, so that nothing
+/// overflows on the way to an answer.
+pub const FARTHEST: f64 = 1e30;
+
+/// Least and greatest largest component of a ray's direction: fractions up to [`FARTHEST`] metres away are numbers.
+pub const RAY_LENGTHS: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
+
 /// Slack when a ray is clipped against the boxes of the tree, relative: three roundings each way (T. Ize, "Robust BVH
 /// ray traversal", 2013).
 pub const RAY_BOX_SLACK: f64 = 1e-15;

@@ -7,11 +7,13 @@ use hyperbody_math::{Pose, Rotation, Vector};
 
 use crate::difference::Difference;
 use crate::gjk::{self, Proximity, Seeds};
+use crate::limits::FARTHEST;
 
-/// Whether a point, in the frame of the piece, lies in it. Points that are not finite lie in nothing.
+/// Whether a point, in the frame of the piece, lies in it. Points that are not finite, or beyond
+/// [`FARTHEST`], lie in nothing.
 #[must_use]
 pub fn contains<const N: usize>(piece: &Piece<N>, point: Vector<N>) -> bool {
-    if !point.is_finite() {
+    if !(0.0..=FARTHEST).contains(&point.max_abs()) {
         return false;
     }
     match piece {

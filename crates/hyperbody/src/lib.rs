@@ -31,7 +31,7 @@
 //! ```
 //!
 //! Every capability in a program of thirty lines that can be run: `cargo run --release -p hyperbody --example tour`, its source
-//! in `examples/tour`.
+//! in `examples/tour`. What a world can be asked is listed in `docs/queries.md`.
 //!
 //! | crate | holds |
 //! |---|---|
@@ -45,8 +45,15 @@ pub use hyperbody_dynamics as dynamics;
 pub use hyperbody_geometry as geometry;
 pub use hyperbody_math as math;
 
+/// The examples of the page on queries, which have to run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/queries.md")]
+mod queries_page {}
+
 /// What most programs need.
 pub mod prelude {
+    pub use hyperbody_collision::Ray;
+    pub use hyperbody_collision::query::Motion;
     pub use hyperbody_dynamics::{
         BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, CombineRule, ContactEvent, ContactHook, ContactPhase, Energy,
         Events, Freedom, Groups, HookedContact, JointDef, JointHandle, JointRef, Material, Motor, QueryFilter,

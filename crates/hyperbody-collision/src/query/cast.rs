@@ -46,8 +46,9 @@ pub struct ShapeHit<const N: usize> {
 }
 
 /// When `shape` in `motion`, within 0 ≤ time ≤ `max_time` (s, may be infinite without turning), first comes within
-/// `margin` (m, ≥ 0) of the shape `other` that stands at `world_from_other`. `None` if it does not, if it only touches
-/// at the start and moves away or along without turning, if a number is not finite, or if `shape` is a half-space.
+/// `margin` (m, from 0 to [`limits::FARTHEST`]) of the shape `other` that stands at `world_from_other`. `None` if it does
+/// not, if it only touches at the start and moves away or along without turning, if a number is out of its range or not
+/// finite, or if `shape` is a half-space. Shapes that overlap at the start meet at time 0, with `inside` set.
 ///
 /// ```
 /// use hyperbody_collision::query::{Motion, shape_cast};
@@ -195,7 +196,7 @@ impl<const N: usize> Movers<'_, N> {
         scratch: &mut Scratch<N>,
         mut separate: impl FnMut(&Pose<N>, &Pose<N>, &mut Scratch<N>) -> Option<(Separation<N>, bool)>,
     ) -> Option<ShapeHit<N>> {
-        if !(self.a.motion.is_valid() && max_time >= 0.0 && self.margin >= 0.0) {
+        if !(self.a.motion.is_valid() && max_time >= 0.0 && (0.0..=limits::FARTHEST).contains(&self.margin)) {
             return None;
         }
         let size = |mover: &Mover<'_, N>| mover.convex.bounding_radius();

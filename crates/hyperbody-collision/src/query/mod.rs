@@ -14,9 +14,11 @@
 //! All take world poses and answer in the world. Shapes are closed solids: touching is having a point in common, to the
 //! rounding of the search ([`crate::limits::TOUCHING`] of the size of both shapes).
 //!
-//! Inputs that are not finite have nothing in common with anything, and nothing panics.
+//! Coordinates of poses and points go up to ±[`FARTHEST`](crate::limits::FARTHEST) (1e30 m); what is beyond, or not
+//! finite, has nothing in common with anything. Nothing panics.
 
 mod cast;
+mod half_spaces;
 mod motion;
 mod project;
 mod separation;
@@ -29,3 +31,12 @@ pub(crate) use separation::separation_by_difference;
 pub use separation::{
     Closest, Separation, closest, closest_of_pieces, overlap, pieces_overlap, separation, separation_of_pieces,
 };
+
+use hyperbody_math::Pose;
+
+use crate::limits::FARTHEST;
+
+/// Whether a pose is one that queries answer for: finite, and not beyond [`FARTHEST`].
+pub(crate) fn in_range<const N: usize>(pose: &Pose<N>) -> bool {
+    pose.translation.max_abs() <= FARTHEST && pose.rotation.matrix().is_finite()
+}

@@ -2,6 +2,8 @@
 
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
+use super::in_range;
+
 /// A motion at constant velocity and constant angular velocity.
 ///
 /// The point `centre` of the shape goes along a straight line; the shape turns about it. In more than three dimensions
@@ -57,11 +59,11 @@ impl<const N: usize> Motion<N> {
         Pose::new(rotation, centre - rotation.rotate(self.centre))
     }
 
-    /// Whether all numbers are finite. Casts of any other motion hit nothing.
+    /// Whether all numbers are finite, and the start is not beyond [`FARTHEST`](crate::limits::FARTHEST). Casts of any
+    /// other motion hit nothing.
     #[must_use]
     pub fn is_valid(&self) -> bool {
-        self.start.translation.is_finite()
-            && self.start.rotation.matrix().is_finite()
+        in_range(&self.start)
             && self.velocity.is_finite()
             && self.angular_velocity.is_finite()
             && self.centre.is_finite()

@@ -11,7 +11,9 @@ use hyperbody_math::{Pose, Vector};
 
 use crate::difference::Difference;
 use crate::gjk::{self, Proximity, Seeds};
-use crate::narrow::{Scratch, is_finite, plane_in_world};
+use crate::narrow::{Scratch, plane_in_world};
+use crate::query::half_spaces::half_spaces;
+use crate::query::in_range;
 use crate::query::unsure::{shallower_by_axes, shallower_by_facet, sharpened};
 use crate::round::{self, Segment, Witness};
 use crate::{general, limits};
@@ -20,13 +22,14 @@ use crate::{general, limits};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separation<const N: usize> {
     /// m; positive between disjoint shapes. Of overlapping ones minus the depth: the shortest way by which one can be
-    /// moved so that they only touch.
+    /// moved so that they only touch. −∞ where there is no such way, which is so of two half-spaces alone.
     pub distance: f64,
     /// Unit, from a to b: moving b along it by −`distance` makes overlapping shapes touch.
     pub normal: Vector<N>,
-    /// The point of a nearest to b, or deepest in it.
+    /// The point of a nearest to b, or deepest in it; of half-spaces at a distance of −∞, which have none, that of a's
+    /// surface nearest to the origin.
     pub on_a: Vector<N>,
-    /// The point of b nearest to a, or deepest in it: `on_a` + `distance`·`normal`, to rounding.
+    /// The point of b nearest to a, or deepest in it: `on_a` + `distance`·`normal`, to rounding; at −∞ as for a.
     pub on_b: Vector<N>,
     /// Which part of a compound a; 0 for every other shape.
     pub part_a: u32,
@@ -82,8 +85,8 @@ pub fn overlap<const N: usize>(a: &Shape<N>, world_from_a: &Pose<N>, b: &Shape<N
     })
 }
 
-/// The closest points of two shapes that are at most `up_to` (m, ≥ 0, may be infinite) apart. Two half-spaces, which are
-/// unbounded, have none: they are [`Closest::Apart`].
+/// The closest points of two shapes that are at most `up_to` (m, ≥ 0, may be infinite) apart. Two half-spaces overlap
+/// unless they face away from each other exactly.
 #[must_use]
 pub fn closest<const N: usize>(
     a: &Shape<N>,
@@ -114,8 +117,9 @@ pub fn closest<const N: usize>(
 /// moving b by it frees these two, but maybe not the others. Depths of polytopes whose Minkowski difference has tens of
 /// thousands of facets around the way out, in five and six dimensions, may be those of a way out that is the shortest only
 /// among its neighbours ([`crate::limits::MAX_EPA_FACETS`]), unless their pairs of faces are few enough for separating axes
-/// ([`crate::limits::MAX_FACE_PAIRS`]). `None` between two half-spaces, which are unbounded, and for
-/// poses that are not finite.
+/// ([`crate::limits::MAX_FACE_PAIRS`]). Two half-spaces that
+/// do not face away from each other exactly are freed by no way: their distance is −∞. `None` for poses that are not finite,
+/// or beyond [`crate::limits::FARTHEST`].
 ///
 /// ```
 /// use hyperbody_collision::query::separation;
@@ -158,16 +162,10 @@ pub fn pieces_overlap<const N: usize>(
     b: &Piece<N>,
     world_from_b: &Pose<N>,
 ) -> bool {
-    if !(is_finite(world_from_a) && is_finite(world_from_b)) {
+    if !(in_range(world_from_a) && in_range(world_from_b)) {
         return false;
     }
     match (a, b) {
-        (Piece::HalfSpace { normal: a, offset: offset_a }, Piece::HalfSpace { normal: b, offset: offset_b }) => {
-            let (normal_a, offset_a) = plane_in_world(world_from_a, *a, *offset_a);
-            let (normal_b, offset_b) = plane_in_world(world_from_b, *b, *offset_b);
-            // Only those that face away from each other exactly can be disjoint.
-            normal_a != -normal_b || offset_a + offset_b >= 0.0
-        }
         (Piece::Convex(a), Piece::Convex(b)) => {
             !matches!(closest_convex(a, world_from_a, b, world_from_b, 0.0), Closest::Apart)
         }
@@ -184,7 +182,7 @@ pub fn closest_of_pieces<const N: usize>(
     world_from_b: &Pose<N>,
     up_to: f64,
 ) -> Closest<N> {
-    if !(is_finite(world_from_a) && is_finite(world_from_b)) {
+    if !(in_range(world_from_a) && in_range(world_from_b)) {
         return Closest::Apart;
     }
     let judged = |found: Separation<N>| {
@@ -204,7 +202,9 @@ pub fn closest_of_pieces<const N: usize>(
         (Piece::HalfSpace { normal, offset }, Piece::Convex(b)) => {
             judged(to_half_space(b, world_from_b, plane_in_world(world_from_a, *normal, *offset)).flipped())
         }
-        (Piece::HalfSpace { .. }, Piece::HalfSpace { .. }) => Closest::Apart,
+        (Piece::HalfSpace { normal: a, offset: offset_a }, Piece::HalfSpace { normal: b, offset: offset_b }) => judged(
+            half_spaces(plane_in_world(world_from_a, *a, *offset_a), plane_in_world(world_from_b, *b, *offset_b)),
+        ),
     }
 }
 
@@ -217,7 +217,7 @@ pub fn separation_of_pieces<const N: usize>(
     world_from_b: &Pose<N>,
     scratch: &mut Scratch<N>,
 ) -> Option<Separation<N>> {
-    if !(is_finite(world_from_a) && is_finite(world_from_b)) {
+    if !(in_range(world_from_a) && in_range(world_from_b)) {
         return None;
     }
     match (a, b) {
@@ -228,7 +228,9 @@ pub fn separation_of_pieces<const N: usize>(
         (Piece::HalfSpace { normal, offset }, Piece::Convex(b)) => {
             Some(to_half_space(b, world_from_b, plane_in_world(world_from_a, *normal, *offset)).flipped())
         }
-        (Piece::HalfSpace { .. }, Piece::HalfSpace { .. }) => None,
+        (Piece::HalfSpace { normal: a, offset: offset_a }, Piece::HalfSpace { normal: b, offset: offset_b }) => {
+            Some(half_spaces(plane_in_world(world_from_a, *a, *offset_a), plane_in_world(world_from_b, *b, *offset_b)))
+        }
     }
 }
 

@@ -11,7 +11,8 @@
 //! | rounded box, rounded polytope | Newton's method on the distance to the core, which is convex along the ray |
 //!
 //! A ray that starts inside a solid hits it at once: at fraction 0, with `inside` set and no normal. Origins on the
-//! surface count as inside unless the ray goes in through it, which is an ordinary hit at fraction 0.
+//! surface count as inside, also of a ray that leaves or runs along it, unless the ray goes in through it, which is an
+//! ordinary hit at fraction 0.
 //!
 //! Tried and dropped: fixed-step conservative advancement, which needs some thirty distances for a ray that passes close
 //! by; Newton's method needs three to five and never steps over the surface.
@@ -24,12 +25,15 @@ use hyperbody_geometry::shape::Piece;
 use hyperbody_geometry::{Convex, Core, Shape};
 use hyperbody_math::{Pose, Vector};
 
+use crate::limits::{FARTHEST, RAY_LENGTHS};
+
 /// The points origin + t·direction with 0 ≤ t ≤ `max_fraction`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray<const N: usize> {
-    /// Where it starts, m.
+    /// Where it starts, m. Coordinates within ±[`FARTHEST`].
     pub origin: Vector<N>,
-    /// Where it goes; any length but zero. Fractions count in this length.
+    /// Where it goes; fractions count in its length. Of any length, the largest component within [`RAY_LENGTHS`]: from
+    /// 1e-200 to 1e200.
     pub direction: Vector<N>,
     /// How far it goes, in lengths of the direction; ≥ 0, may be infinite.
     pub max_fraction: f64,
@@ -81,12 +85,29 @@ impl<const N: usize> Ray<N> {
         self.origin + self.direction * fraction
     }
 
-    /// Whether the numbers make a ray: origin and direction finite, the direction not zero, the end not negative or NaN.
-    /// Casts of any other ray hit nothing.
+    /// Whether the numbers make a ray: origin and direction within their ranges, which leaves out a direction of zero and
+    /// numbers that are not finite, and the end not negative or NaN. Casts of any other ray hit nothing.
     #[must_use]
     pub fn is_valid(&self) -> bool {
-        let length_sq = self.direction.norm_sq();
-        self.origin.is_finite() && length_sq > 0.0 && length_sq.is_finite() && self.max_fraction >= 0.0
+        self.origin.max_abs() <= FARTHEST && RAY_LENGTHS.contains(&self.direction.max_abs()) && self.max_fraction >= 0.0
+    }
+
+    /// The same ray with a direction whose squares are ordinary numbers, and what the fractions of `self` have to be
+    /// multiplied by to be those of the new ray: a power of two, so that nothing is rounded, and 1 for ordinary directions.
+    /// `None` for rays that are not valid.
+    #[must_use]
+    pub fn evened(&self) -> Option<(Self, f64)> {
+        if !self.is_valid() {
+            return None;
+        }
+        let largest = self.direction.max_abs();
+        if (1e-60..=1e60).contains(&largest) {
+            return Some((*self, 1.0));
+        }
+        // The power of two below: the same exponent, and no digits.
+        let scale = f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        let direction = Vector(self.direction.0.map(|component| component / scale));
+        Some((Self { origin: self.origin, direction, max_fraction: self.max_fraction * scale }, scale))
     }
 
     /// The same ray as seen from a frame.
@@ -124,7 +145,8 @@ impl<const N: usize> RayHit<N> {
 }
 
 /// The first hit of a ray on a piece, both in the frame of the piece. Rays that are not [valid](Ray::is_valid) are the
-/// caller's business: they may give a hit that makes no sense, but no panic.
+/// caller's business: they may give a hit that makes no sense, but no panic; so may directions that are
+/// not [evened](Ray::evened).
 #[inline]
 #[must_use]
 pub fn cast_on_piece<const N: usize>(ray: &Ray<N>, piece: &Piece<N>) -> Option<RayHit<N>> {
@@ -156,10 +178,7 @@ pub fn cast_on_piece<const N: usize>(ray: &Ray<N>, piece: &Piece<N>) -> Option<R
 /// ```
 #[must_use]
 pub fn cast<const N: usize>(ray: &Ray<N>, shape: &Shape<N>, world_from_shape: &Pose<N>) -> Option<RayHit<N>> {
-    if !ray.is_valid() {
-        return None;
-    }
-    let mut ray = *ray;
+    let (mut ray, scale) = ray.evened()?;
     let mut first: Option<RayHit<N>> = None;
     for (index, (shape_from_piece, piece)) in shape.pieces().iter().enumerate() {
         let world_from_piece = *world_from_shape * *shape_from_piece;
@@ -169,5 +188,5 @@ pub fn cast<const N: usize>(ray: &Ray<N>, shape: &Shape<N>, world_from_shape: &P
             first = Some(RayHit { part: index as u32, ..hit.in_world(&world_from_piece) });
         }
     }
-    first
+    first.map(|hit| RayHit { fraction: hit.fraction / scale, ..hit })
 }

@@ -116,10 +116,19 @@ fn half_spaces_and_compounds<const N: usize>() {
         }
         assert_eq!(overlap(&floor, &Pose::IDENTITY, &cube, &at(height)), height < 1.0);
     }
-    assert_eq!(separation(&floor, &Pose::IDENTITY, &floor, &at(1.0)), None);
+    let endless = separation(&floor, &Pose::IDENTITY, &floor, &at(1.0)).expect("two half-spaces");
+    assert_eq!(endless.distance, f64::NEG_INFINITY, "no way frees them");
+    assert_eq!((endless.on_a, endless.on_b), (Vector::unit(1) * 0.5, Vector::unit(1) * 1.5));
     assert!(overlap(&floor, &Pose::IDENTITY, &floor, &at(1.0)));
     let ceiling = Shape::half_space(-Vector::<N>::unit(1), -3.0).expect("a ceiling");
     assert!(!overlap(&floor, &Pose::IDENTITY, &ceiling, &Pose::IDENTITY));
+    for height in [0.0, -1.0, -2.5, -4.0] {
+        let found = separation(&floor, &Pose::IDENTITY, &ceiling, &at(height)).expect("two half-spaces");
+        assert_eq!((found.distance, found.normal), (2.5 + height, Vector::unit(1)));
+        assert_eq!((found.on_a, found.on_b), (Vector::unit(1) * 0.5, Vector::unit(1) * (3.0 + height)));
+        assert_eq!(overlap(&floor, &Pose::IDENTITY, &ceiling, &at(height)), height <= -2.5);
+    }
+    assert_eq!(closest(&floor, &Pose::IDENTITY, &ceiling, &Pose::IDENTITY, 2.4), Closest::Apart);
 
     // A dumb-bell: of two parts the nearer one answers.
     let ball = Shape::ball(0.5).expect("a ball");

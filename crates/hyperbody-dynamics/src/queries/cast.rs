@@ -1,5 +1,6 @@
 //! Moving and turning shapes against the bodies of a world, which stand still meanwhile.
 
+use hyperbody_collision::limits::FARTHEST;
 use hyperbody_collision::query::{Motion, ShapeHit, shape_cast_on_piece};
 use hyperbody_collision::ray::Ray;
 use hyperbody_geometry::shape::Piece;
@@ -46,8 +47,9 @@ impl<const N: usize> Swept<N> {
 
 impl<const N: usize> Queries<'_, N> {
     /// The first body that a shape meets in a motion, within 0 ≤ time ≤ `max_time` (s): when it comes within `margin` (m,
-    /// ≥ 0), of the bodies that `filter` lets through; see [`hyperbody_collision::query::shape_cast`]. The bodies stand
-    /// still. Of several met at the same time it is the one added to the world first, as far as slots were not used again.
+    /// 0 to 1e30), of the bodies that `filter` lets through; see [`hyperbody_collision::query::shape_cast`]. The bodies stand
+    /// still. What overlaps at the start is met at time 0, with `inside` set. Numbers out of their ranges and half-spaces as
+    /// `shape` meet nothing. Of several met at the same time it is the one added to the world first, as far as slots were not used again.
     pub fn shape_cast(
         &self,
         shape: &Shape<N>,
@@ -57,7 +59,7 @@ impl<const N: usize> Queries<'_, N> {
         scratch: &mut QueryScratch<N>,
         filter: &QueryFilter<'_>,
     ) -> Option<BodyShapeHit<N>> {
-        if !(motion.is_valid() && max_time >= 0.0 && margin >= 0.0) {
+        if !(motion.is_valid() && max_time >= 0.0 && (0.0..=FARTHEST).contains(&margin)) {
             return None;
         }
         let mut first: Option<(u32, BodyShapeHit<N>)> = None;

@@ -3,8 +3,8 @@
 use crate::body::Body;
 use crate::{BodyHandle, BodyKind, Groups};
 
-/// What a body has to be for a query to see it: all that is set at once. The default sees every body that is in a group and meets
-/// one: what has [`Groups::NONE`] no query sees.
+/// What a body has to be for a query to see it: all that is set at once. The default, [`QueryFilter::ALL`], sees every body,
+/// whatever its groups, and sensors, too.
 ///
 /// ```
 /// use hyperbody_dynamics::{BodyDef, Groups, QueryFilter, QueryScratch, World, WorldDef};
@@ -26,7 +26,8 @@ use crate::{BodyHandle, BodyKind, Groups};
 /// ```
 #[derive(Clone, Copy)]
 pub struct QueryFilter<'f> {
-    groups: Groups,
+    /// `None` does not ask for groups at all.
+    groups: Option<Groups>,
     exclude: Option<BodyHandle>,
     skip_sensors: bool,
     skip_dynamic: bool,
@@ -36,9 +37,9 @@ pub struct QueryFilter<'f> {
 }
 
 impl<'f> QueryFilter<'f> {
-    /// Sees every body but those with [`Groups::NONE`].
+    /// Sees every body: of every kind, in any groups or in none, sensors included.
     pub const ALL: QueryFilter<'static> = QueryFilter {
-        groups: Groups::ALL,
+        groups: None,
         exclude: None,
         skip_sensors: false,
         skip_dynamic: false,
@@ -53,10 +54,11 @@ impl<'f> QueryFilter<'f> {
         QueryFilter::ALL
     }
 
-    /// Only bodies that one with these groups would meet; see [`Groups::meets`].
+    /// Only bodies that one with these groups would meet; see [`Groups::meets`]. With [`Groups::ALL`] that is every body
+    /// that is in a group and meets one: not those with [`Groups::NONE`].
     #[must_use]
     pub const fn groups(mut self, groups: Groups) -> Self {
-        self.groups = groups;
+        self.groups = Some(groups);
         self
     }
 
@@ -123,7 +125,8 @@ impl<'f> QueryFilter<'f> {
             BodyKind::Kinematic => self.skip_kinematic,
             BodyKind::Static => self.skip_fixed,
         };
-        let seen = !(skipped || self.skip_sensors && body.sensor) && self.groups.meets(body.groups);
+        let seen = !(skipped || self.skip_sensors && body.sensor)
+            && self.groups.is_none_or(|groups| groups.meets(body.groups));
         seen && self.exclude != Some(handle) && self.predicate.is_none_or(|predicate| predicate(handle))
     }
 }

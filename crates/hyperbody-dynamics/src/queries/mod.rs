@@ -18,7 +18,9 @@
 //! once and notes these few; it costs about as much as a dozen rays per hundred bodies. Make it once after a step and ask
 //! it as often as needed, from as many threads as needed. Nothing of the simulation changes by being looked at.
 //!
-//! Everything is solid and closed; sleeping, static and quarantined bodies count like others.
+//! Everything is solid and closed; sleeping, static and quarantined bodies and sensors count like others, unless a filter
+//! leaves them out. Coordinates of what is asked go up to ±1e30 m ([`FARTHEST`](hyperbody_collision::limits::FARTHEST));
+//! what is beyond, or not finite, and negative reaches meet nothing.
 
 use std::sync::OnceLock;
 
@@ -113,7 +115,8 @@ impl<const N: usize> World<N> {
         }
     }
 
-    /// The first body that a ray meets: [`Queries::ray_cast`] for a single ray.
+    /// The first body that a ray meets: [`Queries::ray_cast`] for a single ray, with [`QueryFilter::ALL`], which sees sensors,
+    /// too.
     #[must_use]
     pub fn ray_cast(&self, ray: &Ray<N>) -> Option<BodyHit<N>> {
         let mut queries = self.queries();

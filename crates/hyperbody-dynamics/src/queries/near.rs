@@ -1,5 +1,6 @@
 //! Points, boxes and shapes against the bodies of a world: what holds them, meets them, is nearest to them.
 
+use hyperbody_collision::limits::FARTHEST;
 use hyperbody_collision::point;
 use hyperbody_collision::query::{
     Closest, Projection, Separation, closest_of_pieces, pieces_overlap, project_on_piece, separation_of_pieces,
@@ -48,8 +49,8 @@ impl<const N: usize> Probe<N> {
         Self { pieces, aabb }
     }
 
-    fn is_finite(&self) -> bool {
-        self.aabb.is_none_or(|aabb| aabb.lower.is_finite() && aabb.upper.is_finite())
+    fn in_range(&self) -> bool {
+        self.pieces.iter().all(|(pose, _)| pose.translation.max_abs() <= FARTHEST && pose.rotation.matrix().is_finite())
     }
 
     /// Distance or depth to a piece, of the part that is closest or deepest, if that is at most `up_to`.
@@ -100,7 +101,8 @@ impl<const N: usize> Queries<'_, N> {
     }
 
     /// The bodies that have a point in common with an axis-aligned box, ascending, of those that `filter` lets through.
-    /// The bodies themselves count, not their boxes. `out` is emptied first.
+    /// The bodies themselves count, not their boxes. `out` is emptied first. A box may be as large as you like, infinite
+    /// included.
     pub fn bodies_in(
         &self,
         aabb: &Aabb<N>,
@@ -108,6 +110,9 @@ impl<const N: usize> Queries<'_, N> {
         filter: &QueryFilter<'_>,
         out: &mut Vec<BodyHandle>,
     ) {
+        // Beyond the range of queries there is nothing, and lengths overflow.
+        let limited = |corner: Vector<N>| corner.min(Vector::splat(FARTHEST)).max(Vector::splat(-FARTHEST));
+        let aabb = &Aabb { lower: limited(aabb.lower), upper: limited(aabb.upper) };
         let meets = |piece: &Piece<N>, pose: &Pose<N>| point::overlaps_aabb(piece, pose, aabb);
         self.collect(aabb, scratch, filter, meets, out);
     }
@@ -148,7 +153,7 @@ impl<const N: usize> Queries<'_, N> {
         });
     }
 
-    /// The body nearest to a point, at most `up_to` (m, may be infinite) away, of those that `filter` lets through: of the
+    /// The body nearest to a point, at most `up_to` (m, ≥ 0, may be infinite) away, of those that `filter` lets through: of the
     /// bodies that hold the point the one in which it lies deepest. Of several equally near it is the one added to the
     /// world first, as far as slots were not used again.
     pub fn nearest_to_point(
@@ -159,7 +164,7 @@ impl<const N: usize> Queries<'_, N> {
         filter: &QueryFilter<'_>,
     ) -> Option<BodyProjection<N>> {
         let point = point.into();
-        if !point.is_finite() {
+        if !(0.0..=FARTHEST).contains(&point.max_abs()) {
             return None;
         }
         let mut best: Option<(u32, BodyProjection<N>)> = None;
@@ -188,8 +193,9 @@ impl<const N: usize> Queries<'_, N> {
         self.batch(points, out, |point, scratch| self.nearest_to_point(*point, up_to, scratch, filter));
     }
 
-    /// The body nearest to a shape at `world_from_shape`, at most `up_to` (m, may be infinite) away, with the points that
-    /// are closest; of bodies that overlap the shape the deepest. Ties go to the body added first.
+    /// The body nearest to a shape at `world_from_shape`, at most `up_to` (m, ≥ 0, may be infinite) away, with the points
+    /// that are closest; of bodies that overlap the shape the deepest, and no way leads out of two half-spaces, so that their
+    /// distance is −∞. Ties go to the body added first.
     pub fn nearest_to_shape(
         &self,
         shape: &Shape<N>,
@@ -244,7 +250,7 @@ impl<const N: usize> Queries<'_, N> {
         filter: &QueryFilter<'_>,
         mut visit: impl FnMut(u32, BodySeparation<N>) -> f64,
     ) {
-        if !probe.is_finite() {
+        if !probe.in_range() {
             return;
         }
         let aabb = probe.aabb.unwrap_or_else(everywhere);

@@ -25,8 +25,9 @@ impl<const N: usize> Queries<'_, N> {
         scratch: &mut QueryScratch<N>,
         filter: &QueryFilter<'_>,
     ) -> Option<BodyHit<N>> {
+        let (ray, scale) = ray.evened()?;
         let mut first: Option<(u32, RayHit<N>)> = None;
-        self.visit_hits(ray, scratch, filter, |slot, hit| {
+        self.visit_hits(&ray, scratch, filter, |slot, hit| {
             let closer = first.is_none_or(|(best_slot, best)| {
                 hit.fraction < best.fraction || (hit.fraction == best.fraction && slot < best_slot)
             });
@@ -35,13 +36,14 @@ impl<const N: usize> Queries<'_, N> {
             }
             Some(hit.fraction)
         });
-        first.and_then(|(slot, hit)| self.in_world(slot, &hit))
+        first.and_then(|(slot, hit)| self.in_world(slot, &hit, scale))
     }
 
     /// Whether a ray meets any body that `filter` lets through; stops at the first one found.
     pub fn ray_meets_any(&self, ray: &Ray<N>, scratch: &mut QueryScratch<N>, filter: &QueryFilter<'_>) -> bool {
+        let Some((ray, _)) = ray.evened() else { return false };
         let mut met = false;
-        self.visit_hits(ray, scratch, filter, |_, _| {
+        self.visit_hits(&ray, scratch, filter, |_, _| {
             met = true;
             None
         });
@@ -58,8 +60,9 @@ impl<const N: usize> Queries<'_, N> {
         out: &mut Vec<BodyHit<N>>,
     ) {
         out.clear();
-        self.visit_hits(ray, scratch, filter, |slot, hit| {
-            out.extend(self.in_world(slot, hit));
+        let Some((ray, scale)) = ray.evened() else { return };
+        self.visit_hits(&ray, scratch, filter, |slot, hit| {
+            out.extend(self.in_world(slot, hit, scale));
             Some(f64::INFINITY)
         });
         out.sort_unstable_by(|a, b| {
@@ -74,7 +77,7 @@ impl<const N: usize> Queries<'_, N> {
         self.batch(rays, out, |ray, scratch| self.ray_cast(ray, scratch, filter));
     }
 
-    /// Calls `visit` with slot and hit, in the frame of the collider, of every collider that the ray meets up to what
+    /// `ray` is [evened](Ray::evened). Calls `visit` with slot and hit, in the frame of the collider, of every collider that the ray meets up to what
     /// `visit` last answered, until that is `None`.
     fn visit_hits(
         &self,
@@ -83,9 +86,6 @@ impl<const N: usize> Queries<'_, N> {
         filter: &QueryFilter<'_>,
         mut visit: impl FnMut(u32, &RayHit<N>) -> Option<f64>,
     ) {
-        if !ray.is_valid() {
-            return;
-        }
         let inverse_speed_sq = 1.0 / ray.direction.norm_sq();
         // What costs least comes first; the filter is asked for what is hit.
         let mut look = |slot: u32, reach: f64| {
@@ -117,11 +117,12 @@ impl<const N: usize> Queries<'_, N> {
         }
     }
 
-    fn in_world(&self, slot: u32, hit: &RayHit<N>) -> Option<BodyHit<N>> {
+    /// A hit in the frame of its collider as users get it; fractions of the ray cast are `scale` times those of theirs.
+    fn in_world(&self, slot: u32, hit: &RayHit<N>, scale: f64) -> Option<BodyHit<N>> {
         let collider = self.world.colliders[slot as usize].as_ref()?;
         let body = self.world.bodies.handle_at(collider.body)?;
         let hit = hit.in_world(&self.world_from_collider[slot as usize]);
-        Some(BodyHit { body, hit: RayHit { part: self.part(slot), ..hit } })
+        Some(BodyHit { body, hit: RayHit { part: self.part(slot), fraction: hit.fraction / scale, ..hit } })
     }
 }
 

@@ -19,6 +19,7 @@ mod joint_loads;
 mod materials;
 mod momenta;
 mod queries;
+mod queries_limits;
 mod queries_shapes;
 mod random_operations;
 mod robustness;

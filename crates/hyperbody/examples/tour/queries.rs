@@ -1,7 +1,5 @@
 //! Questions to a world: what is where. Nothing moves by being asked.
 
-use hyperbody::collision::Ray;
-use hyperbody::collision::query::Motion;
 use hyperbody::prelude::*;
 
 use crate::{Outcome, claim, world_with_ground};
