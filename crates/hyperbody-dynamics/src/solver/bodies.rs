@@ -11,11 +11,14 @@
 
 use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
-use super::lanes::Real;
+use super::lanes::{Real, WIDTH};
 use crate::body::Body;
 
 /// Most planes of any dimension: 15 in 6D.
 pub(crate) const MAX_PLANES: usize = planes::count(6);
+
+/// [`Sizes::STATE`] of 6D.
+pub(crate) const MAX_STATE: usize = Sizes::<6>::STATE;
 
 /// Sizes that follow from the dimension.
 pub(crate) struct Sizes<const N: usize>;
@@ -25,8 +28,8 @@ impl<const N: usize> Sizes<N> {
     pub(crate) const K: usize = planes::count(N);
     /// Numbers of a velocity: linear, then angular.
     pub(crate) const VELOCITY: usize = N + Self::K;
-    /// Numbers of a body: change of velocity, then displacement by it.
-    pub(crate) const STATE: usize = 2 * Self::VELOCITY;
+    /// Numbers of a body: change of velocity, then displacement by it, then nothing up to a whole vector.
+    pub(crate) const STATE: usize = (2 * Self::VELOCITY).next_multiple_of(WIDTH);
 }
 
 /// Mass, frame and base motion of a body during one step.

@@ -1,10 +1,4 @@
-//! Several contacts side by side: one number of each, worked on together.
-//!
-//! Plain arrays with plain loops: compiled for the widest vectors of the machine (see `Solver::arch`), they become
-//! vector instructions, and lane by lane they are the same IEEE operations on every width, so the bits don't depend
-//! on the machine. No fused multiply-add, for the same reason.
-
-use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+//! Several contacts side by side: one number of each, as it stands in memory. Arithmetic on them is [`super::wide`]'s.
 
 /// The scalar of the solver's rows. Velocities enter the rows as *changes* since the start of the step and gaps as
 /// distances of neighbouring surfaces: both small, so that seven digits of them are more than of the whole.
@@ -26,88 +20,11 @@ impl Lanes {
         Self([value; WIDTH])
     }
 
+    /// [`WIDTH`] numbers.
     #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(Real, Real) -> Real) -> Self {
-        let mut result = [0.0; WIDTH];
-        for lane in 0..WIDTH {
-            result[lane] = f(self.0[lane], other.0[lane]);
-        }
-        Self(result)
-    }
-
-    #[inline(always)]
-    pub(crate) fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
-    }
-
-    #[inline(always)]
-    pub(crate) fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a < b { a } else { b })
-    }
-
-    #[inline(always)]
-    pub(crate) fn sqrt(self) -> Self {
-        self.zip(self, |a, _| a.sqrt())
-    }
-
-    #[inline(always)]
-    pub(crate) fn div(self, other: Self) -> Self {
-        self.zip(other, |a, b| a / b)
-    }
-
-    /// Lane by lane: `positive` where `self` > 0, else `otherwise`.
-    #[inline(always)]
-    pub(crate) fn select_positive(self, positive: Self, otherwise: Self) -> Self {
-        let mut result = [0.0; WIDTH];
-        for lane in 0..WIDTH {
-            result[lane] = if self.0[lane] > 0.0 { positive.0[lane] } else { otherwise.0[lane] };
-        }
-        Self(result)
-    }
-}
-
-impl Add for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
-    }
-}
-
-impl Sub for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
-    }
-}
-
-impl Mul for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
-    }
-}
-
-impl Neg for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        self.zip(self, |a, _| -a)
-    }
-}
-
-impl AddAssign for Lanes {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Lanes {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
+    pub(crate) fn of(values: &[Real]) -> Self {
+        let mut lanes = [0.0; WIDTH];
+        lanes.copy_from_slice(values);
+        Self(lanes)
     }
 }

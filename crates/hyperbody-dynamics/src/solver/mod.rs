@@ -14,7 +14,8 @@
 //! | `joints` | joint rows |
 //! | `turning` | gaps of bodies that turn far within the step |
 //! | `gyro` | free rotation of anisotropic bodies within the step |
-//! | `softness`, `lanes`, `width` | soft coefficients; vectors of contacts; the processor's width |
+//! | `softness` | soft coefficients |
+//! | `lanes`, `wide`, `machine` | several contacts side by side: in memory, in registers; the processor's instructions |
 
 pub(crate) mod bodies;
 mod colours;
@@ -22,10 +23,11 @@ mod contacts;
 mod gyro;
 mod joints;
 mod lanes;
+mod machine;
 mod pressed;
 mod softness;
 mod turning;
-mod width;
+mod wide;
 
 use hyperbody_math::{Bivector, Vector};
 
@@ -43,10 +45,10 @@ use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
 use lanes::Lanes;
 pub(crate) use lanes::Real;
+use machine::Processor;
 use pressed::Pressed;
 use softness::Softness;
 use turning::Turning;
-use width::Width;
 
 /// Buffers of the solver, kept from step to step so that a settled step allocates nothing.
 pub(crate) struct Solver<const N: usize> {
@@ -63,7 +65,7 @@ pub(crate) struct Solver<const N: usize> {
     tension: Tension,
     turning: Turning<N>,
     pressed: Pressed,
-    width: Width,
+    processor: Processor,
 }
 
 /// A body whose velocity dies away.
@@ -101,7 +103,7 @@ impl<const N: usize> Solver<N> {
             tension: Tension::default(),
             turning: Turning::default(),
             pressed: Pressed::default(),
-            width: Width::of_this_machine(),
+            processor: Processor::of_this_machine(),
         }
     }
 
@@ -234,7 +236,7 @@ impl<const N: usize> Solver<N> {
 
     fn run_substeps(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
-        let width = self.width;
+        let processor = self.processor;
         self.turning.clear(self.bodies.len());
         self.pressed.clear::<N>(self.bodies.len());
         self.refresh_joints(&Moment::new(0, 0, h));
@@ -245,7 +247,7 @@ impl<const N: usize> Solver<N> {
             self.warm_start_joints(Pass::Move, h);
             if substep == 0 {
                 let contacts = &mut self.contacts;
-                let pass = |state: &mut [Real]| width.run(WarmStart::<N> { contacts, state });
+                let pass = |state: &mut [Real]| processor.run(WarmStart::<N> { contacts, state });
                 self.pressed.watch::<N>(&mut self.state, pass);
             } else {
                 self.pressed.warm_start::<N>(&mut self.state);
@@ -261,14 +263,14 @@ impl<const N: usize> Solver<N> {
             self.solve_joints(Pass::Settle, substep, h);
             self.solve_contacts(&times);
             if substep + 1 == input.substeps {
-                width.run(Bounce::<N> { contacts: &mut self.contacts, state: &mut self.state, times: &times });
+                processor.run(Bounce::<N> { contacts: &mut self.contacts, state: &mut self.state, times: &times });
             }
         }
     }
 
     fn solve_contacts(&mut self, times: &PassTimes) {
-        let (width, contacts) = (self.width, &mut self.contacts);
-        let pass = |state: &mut [Real]| width.run(Solve::<N> { contacts, state, times });
+        let (processor, contacts) = (self.processor, &mut self.contacts);
+        let pass = |state: &mut [Real]| processor.run(Solve::<N> { contacts, state, times });
         self.pressed.watch::<N>(&mut self.state, pass);
     }
 

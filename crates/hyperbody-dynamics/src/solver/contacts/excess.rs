@@ -14,34 +14,41 @@ use super::Layout;
 use super::pairing::Pairing;
 use super::solve::{PassTimes, Passes};
 use crate::solver::lanes::Lanes;
+use crate::solver::machine::Machine;
+use crate::solver::wide::Wide;
 
-impl<const N: usize> Passes<N> {
+impl<const N: usize, M: Machine> Passes<N, M> {
     /// The impulse on b of all rows of a block, world axes.
     #[inline(always)]
-    pub(super) fn impulse(head: &[Lanes], points: &[Lanes]) -> [Lanes; N] {
-        let load = Self::load(points);
-        let mut sum: [Lanes; N] = std::array::from_fn(|i| head[Layout::<N>::NORMAL + i] * load);
+    pub(super) fn impulse(machine: M, head: &[Lanes], points: &[Lanes]) -> [Wide<M>; N] {
+        let load = Self::load(machine, points);
+        let mut sum = [load; N];
+        for (sum, direction) in sum.iter_mut().zip(&head[Layout::<N>::NORMAL..]) {
+            *sum = load * *direction;
+        }
         for row in head[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact(Layout::<N>::SLIDE_ROW) {
+            let impulse = row[Layout::<N>::SLIDE_IMPULSE].on(machine);
             for (sum, direction) in sum.iter_mut().zip(row) {
-                *sum += *direction * row[Layout::<N>::SLIDE_IMPULSE];
+                *sum += impulse * *direction;
             }
         }
         sum
     }
 
-    /// Notes what impulses applied now, after the bodies moved by `displacement`, add to the angular momentum. `before` is the
-    /// part of the block's impulse that was applied, and noted, earlier.
+    /// Notes what impulses applied now, after the bodies moved, add to the angular momentum. `before` is the part of the
+    /// block's impulse that was applied, and noted, earlier.
     #[inline(always)]
     pub(super) fn note_excess(
         head: &mut [Lanes],
         points: &[Lanes],
-        before: &[Lanes; N],
-        displacement: &Pairing<N>,
+        before: &[Wide<M>; N],
+        p: &Pairing<N, M>,
         times: &PassTimes,
     ) {
-        let (moved, moved_sq) = (Lanes::splat(times.moved), Lanes::splat(times.moved_sq));
-        let mut between = displacement.between_centres();
-        let mut impulse = Self::impulse(head, points);
+        let machine = p.machine;
+        let (moved, moved_sq) = (Wide::splat(machine, times.moved), Wide::splat(machine, times.moved_sq));
+        let mut between = p.between_centres();
+        let mut impulse = Self::impulse(machine, head, points);
         for i in 0..N {
             between[i] += moved * head[Layout::<N>::CENTRE_VELOCITY + i];
             between[i] += moved_sq * head[Layout::<N>::CENTRE_ACCELERATION + i];
@@ -50,7 +57,7 @@ impl<const N: usize> Passes<N> {
         let mut k = Layout::<N>::EXCESS;
         for i in 0..N {
             for j in i + 1..N {
-                head[k] += between[i] * impulse[j] - between[j] * impulse[i];
+                head[k] = (head[k].on(machine) + (between[i] * impulse[j] - between[j] * impulse[i])).lanes();
                 k += 1;
             }
         }

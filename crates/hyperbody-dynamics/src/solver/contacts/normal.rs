@@ -11,6 +11,8 @@
 //! among the many equal answers of a patch it picks the one nearest to what the points held, which soft rows keep even.
 
 use crate::solver::lanes::{Lanes, Real};
+use crate::solver::machine::Machine;
+use crate::solver::wide::Wide;
 
 /// Most points of a manifold.
 const MAX: usize = hyperbody_collision::MAX_POINTS;
@@ -20,6 +22,9 @@ const BLOCK_TURNS: usize = 4;
 
 /// Turns, of all, before sweeps take over: the later ones move one point each, which cannot go in circles.
 const PIVOT_TURNS: usize = 16;
+
+/// Whether a program may grow by the same code for several lengths.
+const WEIGHS_LITTLE: bool = cfg!(not(target_arch = "wasm32"));
 
 /// Sweeps where pivoting did not settle.
 const SWEEPS: usize = 6;
@@ -42,6 +47,7 @@ pub(crate) struct NormalProblem {
     /// The solution.
     pub(crate) impulse: [Lanes; MAX],
     free: [Lanes; MAX],
+    velocity: [Lanes; MAX],
     active: [Lanes; MAX],
     factor: [Lanes; MAX * (MAX + 1) / 2],
 }
@@ -56,6 +62,7 @@ impl Default for NormalProblem {
             allowed: zero,
             impulse: zero,
             free: zero,
+            velocity: zero,
             active: zero,
             factor: [Lanes::ZERO; MAX * (MAX + 1) / 2],
         }
@@ -72,14 +79,28 @@ impl NormalProblem {
     /// Solves for `impulse`. `k` is the response matrix of the rows, upper triangle by rows; `stiffener` what rigid rows
     /// have on its diagonal.
     #[inline(always)]
-    pub(crate) fn solve(&mut self, k: &[Lanes], count: usize, stiffener: Lanes) {
-        let slack = self.set_up(k, count);
-        let mut settled = Lanes::ZERO;
+    pub(crate) fn solve<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize, stiffener: Lanes) {
+        // Loops of a length that the compiler knows take half the time; a module for browsers has to be small.
+        match count {
+            1 if WEIGHS_LITTLE => self.solve_rows(machine, k, 1, stiffener),
+            2 if WEIGHS_LITTLE => self.solve_rows(machine, k, 2, stiffener),
+            4 if WEIGHS_LITTLE => self.solve_rows(machine, k, 4, stiffener),
+            8 if WEIGHS_LITTLE => self.solve_rows(machine, k, 8, stiffener),
+            _ => self.solve_rows(machine, k, count, stiffener),
+        }
+    }
+
+    #[inline(always)]
+    fn solve_rows<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize, stiffener: Lanes) {
+        let k = &k[..count * (count + 1) / 2];
+        let stiffener = stiffener.on(machine);
+        let slack = self.set_up(machine, k, count);
+        let mut settled = Wide::zero(machine);
         for turn in 0..PIVOT_TURNS {
-            self.factorize(k, count, stiffener);
-            self.substitute(count, stiffener);
+            self.factorize(machine, k, count, stiffener);
+            self.substitute(machine, count, stiffener);
             settled = self.pivot(k, count, stiffener, slack, turn < BLOCK_TURNS);
-            if settled == Lanes::splat(1.0) {
+            if settled.all_positive() {
                 return;
             }
         }
@@ -89,57 +110,58 @@ impl NormalProblem {
     /// The velocities without this manifold's impulses, and the first guess at the points that press; returns the
     /// approach that counts as none.
     #[inline(always)]
-    fn set_up(&mut self, k: &[Lanes], count: usize) -> Lanes {
-        let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
+    fn set_up<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize) -> Wide<M> {
+        let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
         let mut largest = zero;
-        let mut unheld = [zero; MAX];
-        for (negative, held) in unheld[..count].iter_mut().zip(&self.held) {
-            *negative = -*held;
+        for i in 0..count {
+            self.impulse[i] = (-self.held[i].on(machine)).lanes();
         }
         self.free[..count].copy_from_slice(&self.excess[..count]);
-        add_product(k, &unheld[..count], &mut self.free[..count]);
+        add_product(machine, k, &self.impulse[..count], &mut self.free[..count]);
         for i in 0..count {
-            let (held, excess) = (self.held[i], self.excess[i]);
-            let load = (k[upper(count, i, i)] * held).max(-excess);
-            largest = largest.max(self.allowed[i] * load);
+            let (held, excess) = (self.held[i].on(machine), self.excess[i].on(machine));
+            let load = (held * k[upper(count, i, i)]).max(-excess);
+            let allowed = self.allowed[i].on(machine);
+            largest = largest.max(allowed * load);
             let presses = held.select_positive(one, (-excess).select_positive(one, zero));
-            self.active[i] = presses * self.allowed[i];
+            self.active[i] = (presses * allowed).lanes();
         }
-        largest * Lanes::splat(SLACK)
+        largest * Wide::splat(machine, SLACK)
     }
 
     /// U with K + Γ = UᵀDU on the active points, identity on the others; the diagonal holds 1/D.
     #[inline(always)]
-    fn factorize(&mut self, k: &[Lanes], count: usize, stiffener: Lanes) {
-        let one = Lanes::splat(1.0);
+    fn factorize<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize, stiffener: Wide<M>) {
+        let one = Wide::splat(machine, 1.0);
         let (mut rest, mut responses) = (&mut self.factor[..count * (count + 1) / 2], k);
         for i in 0..count {
             let (row, below) = rest.split_at_mut(count - i);
             let (response, others) = responses.split_at(count - i);
             (rest, responses) = (below, others);
-            let active = self.active[i];
-            let diagonal = response[0] + self.softness[i].select_positive(self.softness[i], stiffener);
-            row[0] = active.select_positive(diagonal, one);
+            let active = self.active[i].on(machine);
+            let softness = self.softness[i].on(machine);
+            let diagonal = softness.select_positive(softness, stiffener) + response[0];
+            row[0] = active.select_positive(diagonal, one).lanes();
             for ((entry, response), other) in row.iter_mut().zip(response).zip(&self.active[i..]).skip(1) {
-                *entry = active * *other * *response;
+                *entry = (active * *other * *response).lanes();
             }
         }
         let mut rest = &mut self.factor[..count * (count + 1) / 2];
         for p in 0..count {
             let (row, below) = rest.split_at_mut(count - p);
-            let inverse = one.div(row[0]);
-            row[0] = inverse;
+            let inverse = one.div(row[0].on(machine));
+            row[0] = inverse.lanes();
             let mut targets = &mut *below;
             for i in 1..row.len() {
                 let (target, next) = targets.split_at_mut(row.len() - i);
                 targets = next;
-                let scaled = row[i] * inverse;
+                let scaled = inverse * row[i];
                 for (entry, pivot) in target.iter_mut().zip(&row[i..]) {
-                    *entry -= scaled * *pivot;
+                    *entry = (entry.on(machine) - scaled * *pivot).lanes();
                 }
             }
             for entry in &mut row[1..] {
-                *entry = *entry * inverse;
+                *entry = (inverse * *entry).lanes();
             }
             rest = below;
         }
@@ -147,49 +169,58 @@ impl NormalProblem {
 
     /// Impulses that stop the active points. A rigid row's stiffener is taken against the impulse it held.
     #[inline(always)]
-    fn substitute(&mut self, count: usize, stiffener: Lanes) {
+    fn substitute<M: Machine>(&mut self, machine: M, count: usize, stiffener: Wide<M>) {
+        let zero = Wide::zero(machine);
         for i in 0..count {
-            let rigid = self.softness[i].select_positive(Lanes::ZERO, stiffener * self.held[i]);
-            self.impulse[i] = self.active[i] * (rigid - self.free[i]);
+            let rigid = self.softness[i].on(machine).select_positive(zero, stiffener * self.held[i]);
+            self.impulse[i] = ((rigid - self.free[i]) * self.active[i]).lanes();
         }
         let mut rest = &self.factor[..count * (count + 1) / 2];
         for p in 0..count {
             let (row, below) = rest.split_at(count - p);
             rest = below;
-            let known = self.impulse[p];
+            let known = self.impulse[p].on(machine);
             for (value, entry) in self.impulse[p + 1..count].iter_mut().zip(&row[1..]) {
-                *value -= *entry * known;
+                *value = (value.on(machine) - known * *entry).lanes();
             }
         }
         for p in (0..count).rev() {
             let start = upper(count, p, p);
             let row = &self.factor[start..start + count - p];
-            let mut value = self.impulse[p] * row[0];
+            let mut value = self.impulse[p].on(machine) * row[0];
             for (entry, later) in row[1..].iter().zip(&self.impulse[p + 1..count]) {
-                value -= *entry * *later;
+                value -= entry.on(machine) * *later;
             }
-            self.impulse[p] = value;
+            self.impulse[p] = value.lanes();
         }
     }
 
     /// Moves points, all or the first, to the side on which they belong; returns one in the lanes where all stood right.
     #[inline(always)]
-    fn pivot(&mut self, k: &[Lanes], count: usize, stiffener: Lanes, slack: Lanes, all: bool) -> Lanes {
-        let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
-        let mut velocity = [zero; MAX];
+    fn pivot<M: Machine>(
+        &mut self,
+        k: &[Lanes],
+        count: usize,
+        stiffener: Wide<M>,
+        slack: Wide<M>,
+        all: bool,
+    ) -> Wide<M> {
+        let machine = slack.machine();
+        let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
         for i in 0..count {
             // The same proximal term as in the active rows, so that one problem is solved.
-            let proximal = self.softness[i].select_positive(zero, stiffener * self.held[i]);
-            velocity[i] = self.free[i] - proximal + slack;
+            let proximal = self.softness[i].on(machine).select_positive(zero, stiffener * self.held[i]);
+            self.velocity[i] = (self.free[i].on(machine) - proximal + slack).lanes();
         }
-        add_product(k, &self.impulse[..count], &mut velocity[..count]);
+        add_product(machine, k, &self.impulse[..count], &mut self.velocity[..count]);
         let mut settled = one;
         for i in 0..count {
-            let pulls = (-self.impulse[i]).select_positive(one, zero);
-            let approaches = (-velocity[i]).select_positive(self.allowed[i], zero);
-            let wrong = self.active[i].select_positive(pulls, approaches);
+            let active = self.active[i].on(machine);
+            let pulls = (-self.impulse[i].on(machine)).select_positive(one, zero);
+            let approaches = (-self.velocity[i].on(machine)).select_positive(self.allowed[i].on(machine), zero);
+            let wrong = active.select_positive(pulls, approaches);
             let moves = if all { wrong } else { wrong * settled };
-            self.active[i] = moves.select_positive(one - self.active[i], self.active[i]);
+            self.active[i] = moves.select_positive(one - active, active).lanes();
             settled = wrong.select_positive(zero, settled);
         }
         settled
@@ -197,43 +228,47 @@ impl NormalProblem {
 
     /// Projected Gauss–Seidel sweeps in the lanes that are not settled.
     #[inline(always)]
-    fn sweep(&mut self, k: &[Lanes], count: usize, stiffener: Lanes, settled: Lanes) {
-        let zero = Lanes::ZERO;
+    fn sweep<M: Machine>(&mut self, k: &[Lanes], count: usize, stiffener: Wide<M>, settled: Wide<M>) {
+        let machine = settled.machine();
+        let zero = Wide::zero(machine);
         let solved = self.impulse;
         self.impulse[..count].copy_from_slice(&self.held[..count]);
         for _ in 0..SWEEPS {
             for i in 0..count {
-                let mut velocity = self.free[i] + self.softness[i] * self.impulse[i];
+                let softness = self.softness[i].on(machine);
+                let impulse = self.impulse[i].on(machine);
+                let mut velocity = self.free[i].on(machine) + softness * impulse;
                 for j in 0..count {
                     let at = if i <= j { upper(count, i, j) } else { upper(count, j, i) };
-                    velocity += k[at] * self.impulse[j];
+                    velocity += k[at].on(machine) * self.impulse[j];
                 }
-                let diagonal = k[upper(count, i, i)] + self.softness[i].select_positive(self.softness[i], stiffener);
+                let diagonal = softness.select_positive(softness, stiffener) + k[upper(count, i, i)];
                 let change = velocity.div(diagonal);
-                self.impulse[i] = self.allowed[i] * (self.impulse[i] - change).max(zero);
+                self.impulse[i] = ((impulse - change).max(zero) * self.allowed[i]).lanes();
             }
         }
         for i in 0..count {
-            self.impulse[i] = settled.select_positive(solved[i], self.impulse[i]);
+            self.impulse[i] = settled.select_positive(solved[i].on(machine), self.impulse[i].on(machine)).lanes();
         }
     }
 }
 
 /// Adds K x to `sum`; K symmetric, upper triangle by rows.
 #[inline(always)]
-fn add_product(k: &[Lanes], x: &[Lanes], sum: &mut [Lanes]) {
+fn add_product<M: Machine>(machine: M, k: &[Lanes], x: &[Lanes], sum: &mut [Lanes]) {
     let count = x.len();
     let mut rest = k;
     for i in 0..count {
         let (row, below) = rest.split_at(count - i);
         rest = below;
-        let own = x[i];
-        let mut total = row[0] * own;
+        let own = x[i].on(machine);
+        let mut total = own * row[0];
         for ((entry, other), out) in row[1..].iter().zip(&x[i + 1..]).zip(&mut sum[i + 1..count]) {
-            total += *entry * *other;
-            *out += *entry * own;
+            let entry = entry.on(machine);
+            total += entry * *other;
+            *out = (out.on(machine) + entry * own).lanes();
         }
-        sum[i] += total;
+        sum[i] = (sum[i].on(machine) + total).lanes();
     }
 }
 
@@ -241,6 +276,7 @@ fn add_product(k: &[Lanes], x: &[Lanes], sum: &mut [Lanes]) {
 mod tests {
     use super::*;
     use crate::solver::lanes::WIDTH;
+    use crate::solver::machine::Plain;
 
     /// Random responses of few degrees of freedom, as rigid bodies have, against the conditions of complementarity.
     #[test]
@@ -270,7 +306,7 @@ mod tests {
                 problem.excess[i] = Lanes([excess; WIDTH]);
                 problem.allowed[i] = Lanes::splat(1.0);
             }
-            problem.solve(&k, count, Lanes::splat(1e-3));
+            problem.solve(Plain, &k, count, Lanes::splat(1e-3));
             let mut worst: Real = 0.0;
             for i in 0..count {
                 let impulse = problem.impulse[i].0[trial % WIDTH];
@@ -323,8 +359,8 @@ mod tests {
             for lane in 1..WIDTH {
                 fill(lane, 1 + (trial + 3 * lane) % count, &mut k_alone, &mut alone);
             }
-            problem.solve(&k, count, Lanes::splat(1e-4));
-            alone.solve(&k_alone, count, Lanes::splat(1e-4));
+            problem.solve(Plain, &k, count, Lanes::splat(1e-4));
+            alone.solve(Plain, &k_alone, count, Lanes::splat(1e-4));
             for i in 0..count {
                 assert_eq!(
                     problem.impulse[i].0[0].to_bits(),

@@ -2,123 +2,143 @@
 
 use super::Block;
 use super::layout::Layout;
-use crate::solver::bodies::{MAX_PLANES, Sizes};
+use crate::solver::bodies::{MAX_STATE, Sizes};
 use crate::solver::lanes::{Lanes, Real, WIDTH};
+use crate::solver::machine::Machine;
+use crate::solver::wide::{Wide, transpose};
 
-/// Changes of velocity of both bodies of a block, one body a lane, and the header's numbers that every row needs.
-pub(super) struct Pairing<const N: usize> {
-    linear_a: [Lanes; N],
-    linear_b: [Lanes; N],
-    angular_a: [Lanes; MAX_PLANES],
-    angular_b: [Lanes; MAX_PLANES],
-    mass_a: Lanes,
-    mass_b: Lanes,
+/// The states of both bodies of a block's contacts, one contact a lane, and the header's numbers that every row needs.
+pub(super) struct Pairing<const N: usize, M: Machine> {
+    /// [`Sizes::STATE`] numbers in use.
+    a: [Wide<M>; MAX_STATE],
+    b: [Wide<M>; MAX_STATE],
+    mass_a: Wide<M>,
+    mass_b: Wide<M>,
+    pub(super) machine: M,
 }
 
-impl<const N: usize> Pairing<N> {
-    #[inline(always)]
-    pub(super) fn gather(block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
-        Self::gather_at(block, rows, state, 0)
-    }
+/// Which part of the state is measured: where it starts.
+type Part = usize;
 
-    /// The displacements in place of the velocities.
-    #[inline(always)]
-    pub(super) fn gather_displacement(block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
-        Self::gather_at(block, rows, state, Sizes::<N>::VELOCITY)
-    }
+impl<const N: usize, M: Machine> Pairing<N, M> {
+    const VELOCITY: Part = 0;
+    const DISPLACEMENT: Part = Sizes::<N>::VELOCITY;
 
     #[inline(always)]
-    fn gather_at(block: &Block, rows: &[Lanes], state: &[Real], part: usize) -> Self {
-        let mut p = Self {
-            linear_a: [Lanes::ZERO; N],
-            linear_b: [Lanes::ZERO; N],
-            angular_a: [Lanes::ZERO; MAX_PLANES],
-            angular_b: [Lanes::ZERO; MAX_PLANES],
-            mass_a: rows[Layout::<N>::INVERSE_SQRT_MASS_A],
-            mass_b: rows[Layout::<N>::INVERSE_SQRT_MASS_B],
-        };
-        for lane in 0..WIDTH {
-            let a = block.bodies_a[lane] as usize * Sizes::<N>::STATE + part;
-            let b = block.bodies_b[lane] as usize * Sizes::<N>::STATE + part;
-            let (a, b) = (&state[a..a + Sizes::<N>::VELOCITY], &state[b..b + Sizes::<N>::VELOCITY]);
-            for i in 0..N {
-                p.linear_a[i].0[lane] = a[i];
-                p.linear_b[i].0[lane] = b[i];
-            }
-            for k in 0..Sizes::<N>::K {
-                p.angular_a[k].0[lane] = a[N + k];
-                p.angular_b[k].0[lane] = b[N + k];
-            }
+    pub(super) fn gather(machine: M, block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
+        Self {
+            a: Self::gather_side(machine, &block.bodies_a, state),
+            b: Self::gather_side(machine, &block.bodies_b, state),
+            mass_a: rows[Layout::<N>::INVERSE_SQRT_MASS_A].on(machine),
+            mass_b: rows[Layout::<N>::INVERSE_SQRT_MASS_B].on(machine),
+            machine,
         }
-        p
+    }
+
+    #[inline(always)]
+    fn gather_side(machine: M, bodies: &[u32; WIDTH], state: &[Real]) -> [Wide<M>; MAX_STATE] {
+        let mut gathered = [Wide::zero(machine); MAX_STATE];
+        for at in (0..Sizes::<N>::STATE).step_by(WIDTH) {
+            let mut rows = [Wide::zero(machine); WIDTH];
+            for (row, body) in rows.iter_mut().zip(bodies) {
+                let start = *body as usize * Sizes::<N>::STATE + at;
+                *row = Lanes::of(&state[start..start + WIDTH]).on(machine);
+            }
+            gathered[at..at + WIDTH].copy_from_slice(&transpose(machine, &rows));
+        }
+        gathered
     }
 
     #[inline(always)]
     pub(super) fn scatter(&self, block: &Block, state: &mut [Real]) {
-        for lane in 0..WIDTH {
-            let a = block.bodies_a[lane] as usize * Sizes::<N>::STATE;
-            let a = &mut state[a..a + Sizes::<N>::VELOCITY];
-            for i in 0..N {
-                a[i] = self.linear_a[i].0[lane];
-            }
-            for k in 0..Sizes::<N>::K {
-                a[N + k] = self.angular_a[k].0[lane];
-            }
-            let b = block.bodies_b[lane] as usize * Sizes::<N>::STATE;
-            let b = &mut state[b..b + Sizes::<N>::VELOCITY];
-            for i in 0..N {
-                b[i] = self.linear_b[i].0[lane];
-            }
-            for k in 0..Sizes::<N>::K {
-                b[N + k] = self.angular_b[k].0[lane];
-            }
-        }
+        Self::scatter_side(&self.a, &block.bodies_a, state);
+        Self::scatter_side(&self.b, &block.bodies_b, state);
         // Row 0 stands for all bodies that no impulse moves; infinite impulses must not make it anything but zero.
         state[..Sizes::<N>::VELOCITY].fill(0.0);
     }
 
+    /// Displacements that share a vector with velocities are put back as they were.
+    #[inline(always)]
+    fn scatter_side(values: &[Wide<M>; MAX_STATE], bodies: &[u32; WIDTH], state: &mut [Real]) {
+        for at in (0..Sizes::<N>::VELOCITY).step_by(WIDTH) {
+            let mut columns = [values[at]; WIDTH];
+            columns.copy_from_slice(&values[at..at + WIDTH]);
+            for (body, row) in bodies.iter().zip(transpose(columns[0].machine(), &columns)) {
+                let start = *body as usize * Sizes::<N>::STATE + at;
+                state[start..start + WIDTH].copy_from_slice(&row.lanes().0);
+            }
+        }
+    }
+
     /// Relative velocity of b against a along `direction`, linear part.
     #[inline(always)]
-    pub(super) fn measure_linear(&self, direction: &[Lanes]) -> Lanes {
-        let mut sum = Lanes::ZERO;
-        for i in 0..N {
-            sum += direction[i] * (self.linear_b[i] * self.mass_b - self.linear_a[i] * self.mass_a);
-        }
-        sum
+    pub(super) fn measure_linear(&self, direction: &[Lanes]) -> Wide<M> {
+        self.linear_of(Self::VELOCITY, direction)
     }
 
     /// The same, angular part, by the row's two arms.
     #[inline(always)]
-    pub(super) fn measure_angular(&self, arms: &[Lanes]) -> Lanes {
-        let mut sum_a = Lanes::ZERO;
-        let mut sum_b = Lanes::ZERO;
+    pub(super) fn measure_angular(&self, arms: &[Lanes]) -> Wide<M> {
+        self.angular_of(Self::VELOCITY, arms)
+    }
+
+    /// What b has been displaced by against a along `direction`, linear part.
+    #[inline(always)]
+    pub(super) fn moved_linear(&self, direction: &[Lanes]) -> Wide<M> {
+        self.linear_of(Self::DISPLACEMENT, direction)
+    }
+
+    /// The same, angular part, by the row's two arms.
+    #[inline(always)]
+    pub(super) fn moved_angular(&self, arms: &[Lanes]) -> Wide<M> {
+        self.angular_of(Self::DISPLACEMENT, arms)
+    }
+
+    #[inline(always)]
+    fn linear_of(&self, part: Part, direction: &[Lanes]) -> Wide<M> {
+        let mut sum = Wide::zero(self.machine);
+        for i in 0..N {
+            sum += (self.b[part + i] * self.mass_b - self.a[part + i] * self.mass_a) * direction[i];
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn angular_of(&self, part: Part, arms: &[Lanes]) -> Wide<M> {
+        let mut sum_a = Wide::zero(self.machine);
+        let mut sum_b = Wide::zero(self.machine);
         for k in 0..Sizes::<N>::K {
-            sum_a += arms[k] * self.angular_a[k];
-            sum_b += arms[Sizes::<N>::K + k] * self.angular_b[k];
+            sum_a += self.a[part + N + k] * arms[k];
+            sum_b += self.b[part + N + k] * arms[Sizes::<N>::K + k];
         }
         sum_b - sum_a
     }
 
     /// What b's centre has been displaced by against a's.
     #[inline(always)]
-    pub(super) fn between_centres(&self) -> [Lanes; N] {
-        std::array::from_fn(|i| self.linear_b[i] * self.mass_b - self.linear_a[i] * self.mass_a)
+    pub(super) fn between_centres(&self) -> [Wide<M>; N] {
+        let mut between = [Wide::zero(self.machine); N];
+        for (i, value) in between.iter_mut().enumerate() {
+            let at = Self::DISPLACEMENT + i;
+            *value = self.b[at] * self.mass_b - self.a[at] * self.mass_a;
+        }
+        between
     }
 
     #[inline(always)]
-    pub(super) fn apply_linear(&mut self, direction: &[Lanes], impulse: Lanes) {
+    pub(super) fn apply_linear(&mut self, direction: &[Lanes], impulse: Wide<M>) {
         let (a, b) = (impulse * self.mass_a, impulse * self.mass_b);
         for i in 0..N {
-            self.linear_a[i] -= direction[i] * a;
-            self.linear_b[i] += direction[i] * b;
+            self.a[i] -= a * direction[i];
+            self.b[i] += b * direction[i];
         }
     }
 
     #[inline(always)]
-    pub(super) fn apply_angular(&mut self, arms: &[Lanes], impulse: Lanes) {
+    pub(super) fn apply_angular(&mut self, arms: &[Lanes], impulse: Wide<M>) {
         for k in 0..Sizes::<N>::K {
-            self.angular_a[k] -= arms[k] * impulse;
-            self.angular_b[k] += arms[Sizes::<N>::K + k] * impulse;
+            self.a[N + k] -= impulse * arms[k];
+            self.b[N + k] += impulse * arms[Sizes::<N>::K + k];
         }
     }
 }

@@ -1,11 +1,14 @@
 //! The passes over contact rows: warm start, solve, bounce. This is where the time of a step goes.
 
+use std::marker::PhantomData;
+
 use super::normal::{NormalProblem, upper};
 use super::pairing::Pairing;
 use super::{Block, ContactRows, Layout};
 use crate::solver::bodies::Sizes;
 use crate::solver::lanes::{Lanes, Real};
-use crate::solver::width::WidePass;
+use crate::solver::machine::{Machine, Pass};
+use crate::solver::wide::Wide;
 
 /// Where a pass stands in the step: factors on the base part of rows.
 #[derive(Clone, Copy, Debug)]
@@ -49,59 +52,59 @@ pub(crate) struct Bounce<'a, const N: usize> {
     pub(crate) times: &'a PassTimes,
 }
 
-impl<const N: usize> WidePass for WarmStart<'_, N> {
+impl<const N: usize> Pass for WarmStart<'_, N> {
     #[inline(always)]
-    fn run(self) {
-        Passes::<N>::warm_start(self.contacts, self.state);
+    fn run<M: Machine>(self, machine: M) {
+        Passes::<N, M>::warm_start(machine, self.contacts, self.state);
     }
 }
 
-impl<const N: usize> WidePass for Solve<'_, N> {
+impl<const N: usize> Pass for Solve<'_, N> {
     #[inline(always)]
-    fn run(self) {
-        Passes::<N>::solve(self.contacts, self.state, self.times);
+    fn run<M: Machine>(self, machine: M) {
+        Passes::<N, M>::solve(machine, self.contacts, self.state, self.times);
     }
 }
 
-impl<const N: usize> WidePass for Bounce<'_, N> {
+impl<const N: usize> Pass for Bounce<'_, N> {
     #[inline(always)]
-    fn run(self) {
-        Passes::<N>::bounce(self.contacts, self.state, self.times);
+    fn run<M: Machine>(self, machine: M) {
+        Passes::<N, M>::bounce(machine, self.contacts, self.state, self.times);
     }
 }
 
-/// The passes for one dimension.
-pub(crate) struct Passes<const N: usize>;
+/// The passes for one dimension and one machine.
+pub(crate) struct Passes<const N: usize, M: Machine>(PhantomData<M>);
 
-impl<const N: usize> Passes<N> {
+impl<const N: usize, M: Machine> Passes<N, M> {
     const K: usize = Sizes::<N>::K;
 
     #[inline(always)]
-    fn warm_start(contacts: &mut ContactRows, state: &mut [Real]) {
+    fn warm_start(machine: M, contacts: &mut ContactRows, state: &mut [Real]) {
         for block in &contacts.blocks {
             let rows = &contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
-            let mut p = Pairing::<N>::gather(block, rows, state);
+            let mut p = Pairing::<N, M>::gather(machine, block, rows, state);
             for row in rows[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact(Layout::<N>::SLIDE_ROW) {
-                let impulse = row[Layout::<N>::SLIDE_IMPULSE];
+                let impulse = row[Layout::<N>::SLIDE_IMPULSE].on(machine);
                 p.apply_linear(&row[..N], impulse);
                 p.apply_angular(&row[N..N + 2 * Self::K], impulse);
             }
             let (field_start, points_start) = (Layout::<N>::field_start(block), Layout::<N>::points_start(block));
             for row in rows[Layout::<N>::TWIST_ROWS..field_start].chunks_exact(Layout::<N>::TWIST_ROW) {
-                p.apply_angular(&row[..2 * Self::K], row[Layout::<N>::TWIST_IMPULSE]);
+                p.apply_angular(&row[..2 * Self::K], row[Layout::<N>::TWIST_IMPULSE].on(machine));
             }
             let (head, points) = rows.split_at(points_start);
-            let mut sum = [Lanes::ZERO; N];
+            let mut sum = [Wide::zero(machine); N];
             let end = block.points * Layout::<N>::POINT_ROW;
             for row in points[..end].chunks_exact(Layout::<N>::POINT_ROW) {
-                add_at(&mut sum, row[Layout::<N>::POINT_IMPULSE], &row[Layout::<N>::POINT_LEVER..]);
+                add_at(&mut sum, row[Layout::<N>::POINT_IMPULSE].on(machine), &row[Layout::<N>::POINT_LEVER..]);
             }
             Self::apply_to_field(block, head, &sum, &mut p);
             if block.resists {
                 let resistance = &rows[Layout::<N>::resistance_start(block)..];
                 let impulses = &resistance[Layout::<N>::ROLLING_IMPULSES..];
                 for (row, impulse) in Self::field(block, head).skip(1).zip(impulses) {
-                    p.apply_angular(row, *impulse);
+                    p.apply_angular(row, impulse.on(machine));
                 }
             }
             p.scatter(block, state);
@@ -109,32 +112,31 @@ impl<const N: usize> Passes<N> {
     }
 
     #[inline(always)]
-    fn solve(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
+    fn solve(machine: M, contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
         let ContactRows { blocks, rows, problem } = contacts;
         for block in blocks.iter() {
             let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
-            let mut p = Pairing::<N>::gather(block, rows, state);
+            let mut p = Pairing::<N, M>::gather(machine, block, rows, state);
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
             let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
             let (response, resistance) = rest.split_at_mut(block.points * (block.points + 1) / 2);
-            let displacement = Pairing::<N>::gather_displacement(block, head, state);
             // Before the move warm starting has just applied all of it.
-            let before = if times.push { [Lanes::ZERO; N] } else { Self::impulse(head, points) };
+            let before = if times.push { [Wide::zero(machine); N] } else { Self::impulse(machine, head, points) };
             // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
             // load, so that a sliding body loses exactly μ times its weight.
             if times.push {
                 Self::rub(block, head, points, resistance, &mut p, times);
             }
-            Self::pose(block, head, points, &p, times, &displacement, problem);
+            Self::pose(block, head, points, &p, times, problem);
             Self::press(block, head, points, response, &mut p, problem);
             if !times.push {
                 for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
-                    let impulse = row[Layout::<N>::POINT_IMPULSE];
-                    row[Layout::<N>::POINT_STEP_IMPULSE] += impulse;
+                    let sum = row[Layout::<N>::POINT_STEP_IMPULSE].on(machine) + row[Layout::<N>::POINT_IMPULSE];
+                    row[Layout::<N>::POINT_STEP_IMPULSE] = sum.lanes();
                 }
                 Self::rub(block, head, points, resistance, &mut p, times);
             }
-            Self::note_excess(head, points, &before, &displacement, times);
+            Self::note_excess(head, points, &before, &p, times);
             p.scatter(block, state);
         }
     }
@@ -145,12 +147,13 @@ impl<const N: usize> Passes<N> {
         head: &mut [Lanes],
         points: &[Lanes],
         resistance: &mut [Lanes],
-        p: &mut Pairing<N>,
+        p: &mut Pairing<N, M>,
         times: &PassTimes,
     ) {
         Self::slide(head, points, p, times);
         if block.twists > 0 {
-            let resisted = block.resists.then(|| resistance[Layout::<N>::TWISTING] * Self::load(points));
+            let load = Self::load(p.machine, points);
+            let resisted = if block.resists { Some(load * resistance[Layout::<N>::TWISTING]) } else { None };
             Self::twist(head, points, resisted, p, times);
         }
         if block.resists {
@@ -160,12 +163,32 @@ impl<const N: usize> Passes<N> {
 
     /// Sum of the impulses of the points.
     #[inline(always)]
-    pub(super) fn load(points: &[Lanes]) -> Lanes {
-        let mut load = Lanes::ZERO;
+    pub(super) fn load(machine: M, points: &[Lanes]) -> Wide<M> {
+        let mut load = Wide::zero(machine);
         for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
             load += row[Layout::<N>::POINT_IMPULSE];
         }
         load
+    }
+
+    /// What a row measures without the bodies' changes: base velocity by now.
+    #[inline(always)]
+    fn base(velocity: Lanes, acceleration: Lanes, elapsed: Wide<M>) -> Wide<M> {
+        elapsed * acceleration + velocity
+    }
+
+    /// The share of a wish that stays within a ball of radius `limit`. In parts of the limit, whose square might vanish in
+    /// single precision.
+    #[inline(always)]
+    fn share_within(limit: Wide<M>, wanted: &[Wide<M>]) -> Wide<M> {
+        let one = Wide::splat(limit.machine(), 1.0);
+        let inverse_limit = one.div(limit.max(Wide::splat(limit.machine(), Real::MIN_POSITIVE)));
+        let mut ratio_sq = Wide::zero(limit.machine());
+        for value in wanted {
+            let ratio = *value * inverse_limit;
+            ratio_sq += ratio * ratio;
+        }
+        one.div(ratio_sq.sqrt().max(one))
     }
 
     /// Resistance to rolling: within the ball of radius c·Σλ in the planes of the normal and the tangents, against the turn.
@@ -175,51 +198,47 @@ impl<const N: usize> Passes<N> {
         head: &[Lanes],
         points: &[Lanes],
         resistance: &mut [Lanes],
-        p: &mut Pairing<N>,
+        p: &mut Pairing<N, M>,
         times: &PassTimes,
     ) {
-        let limit = resistance[Layout::<N>::ROLLING] * Self::load(points);
-        let mass = resistance[Layout::<N>::ROLLING_MASS];
+        let machine = p.machine;
+        let limit = Self::load(machine, points) * resistance[Layout::<N>::ROLLING];
+        let mass = resistance[Layout::<N>::ROLLING_MASS].on(machine);
         let impulses = &mut resistance[Layout::<N>::ROLLING_IMPULSES..];
-        let elapsed = Lanes::splat(times.elapsed);
-        let inverse_limit = Lanes::splat(1.0).div(limit.max(Lanes::splat(Real::MIN_POSITIVE)));
-        let mut wanted = [Lanes::ZERO; N];
-        let mut ratio_sq = Lanes::ZERO;
+        let elapsed = Wide::splat(machine, times.elapsed);
+        let mut wanted = [Wide::zero(machine); N];
         for ((wanted, row), held) in wanted.iter_mut().zip(Self::field(block, head).skip(1)).zip(&*impulses) {
-            let rate = row[Layout::<N>::FIELD_VELOCITY]
-                + elapsed * row[Layout::<N>::FIELD_ACCELERATION]
+            let rate = Self::base(row[Layout::<N>::FIELD_VELOCITY], row[Layout::<N>::FIELD_ACCELERATION], elapsed)
                 + p.measure_angular(row);
-            *wanted = *held - mass * rate;
-            let ratio = *wanted * inverse_limit;
-            ratio_sq += ratio * ratio;
+            *wanted = held.on(machine) - mass * rate;
         }
-        let factor = Lanes::splat(1.0).div(ratio_sq.sqrt().max(Lanes::splat(1.0)));
+        let factor = Self::share_within(limit, &wanted[..Layout::<N>::SLIDES]);
         for ((wanted, row), held) in wanted.iter().zip(Self::field(block, head).skip(1)).zip(impulses) {
             let impulse = *wanted * factor;
             p.apply_angular(row, impulse - *held);
-            *held = impulse;
+            *held = impulse.lanes();
         }
     }
 
     #[inline(always)]
-    fn slide(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N>, times: &PassTimes) {
-        let limit = head[Layout::<N>::FRICTION] * Self::load(points);
-        let elapsed = Lanes::splat(times.elapsed);
+    fn slide(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N, M>, times: &PassTimes) {
+        let machine = p.machine;
+        let limit = Self::load(machine, points) * head[Layout::<N>::FRICTION];
+        let elapsed = Wide::splat(machine, times.elapsed);
         let slides = Layout::<N>::SLIDES;
         let (rows, masses) = head[Layout::<N>::HEADER..].split_at_mut(slides * Layout::<N>::SLIDE_ROW);
-        let mut velocity = [Lanes::ZERO; N];
+        let mut velocity = [Wide::zero(machine); N];
         for (t, row) in rows.chunks_exact(Layout::<N>::SLIDE_ROW).enumerate() {
-            velocity[t] = row[Layout::<N>::SLIDE_VELOCITY]
-                + elapsed * row[Layout::<N>::SLIDE_ACCELERATION]
+            velocity[t] = Self::base(row[Layout::<N>::SLIDE_VELOCITY], row[Layout::<N>::SLIDE_ACCELERATION], elapsed)
                 + p.measure_linear(&row[..N])
                 + p.measure_angular(&row[N..N + 2 * Self::K]);
         }
         // wanted = held − K⁻¹ u, then back into the ball of radius μΣλ.
-        let mut wanted = [Lanes::ZERO; N];
+        let mut wanted = [Wide::zero(machine); N];
         let mut at = 0;
         for s in 0..slides {
             for t in s..slides {
-                let mass = masses[at];
+                let mass = masses[at].on(machine);
                 at += 1;
                 wanted[s] -= mass * velocity[t];
                 if t != s {
@@ -227,81 +246,86 @@ impl<const N: usize> Passes<N> {
                 }
             }
         }
-        // In parts of the limit, whose square might vanish in single precision.
-        let inverse_limit = Lanes::splat(1.0).div(limit.max(Lanes::splat(Real::MIN_POSITIVE)));
-        let mut ratio_sq = Lanes::ZERO;
-        for (t, row) in rows.chunks_exact(Layout::<N>::SLIDE_ROW).enumerate() {
-            wanted[t] += row[Layout::<N>::SLIDE_IMPULSE];
-            let ratio = wanted[t] * inverse_limit;
-            ratio_sq += ratio * ratio;
+        for (wanted, row) in wanted.iter_mut().zip(rows.chunks_exact(Layout::<N>::SLIDE_ROW)) {
+            *wanted += row[Layout::<N>::SLIDE_IMPULSE];
         }
-        let factor = Lanes::splat(1.0).div(ratio_sq.sqrt().max(Lanes::splat(1.0)));
-        for (t, row) in rows.chunks_exact_mut(Layout::<N>::SLIDE_ROW).enumerate() {
-            let impulse = wanted[t] * factor;
+        let factor = Self::share_within(limit, &wanted[..slides]);
+        for (wanted, row) in wanted.iter().zip(rows.chunks_exact_mut(Layout::<N>::SLIDE_ROW)) {
+            let impulse = *wanted * factor;
             let change = impulse - row[Layout::<N>::SLIDE_IMPULSE];
-            row[Layout::<N>::SLIDE_IMPULSE] = impulse;
+            row[Layout::<N>::SLIDE_IMPULSE] = impulse.lanes();
             p.apply_linear(&row[..N], change);
             p.apply_angular(&row[N..N + 2 * Self::K], change);
         }
     }
 
     #[inline(always)]
-    fn twist(head: &mut [Lanes], points: &[Lanes], resisted: Option<Lanes>, p: &mut Pairing<N>, times: &PassTimes) {
-        let (friction, mass) = (head[Layout::<N>::FRICTION], head[Layout::<N>::TWIST_MASS]);
-        let elapsed = Lanes::splat(times.elapsed);
+    fn twist(
+        head: &mut [Lanes],
+        points: &[Lanes],
+        resisted: Option<Wide<M>>,
+        p: &mut Pairing<N, M>,
+        times: &PassTimes,
+    ) {
+        let machine = p.machine;
+        let mass = head[Layout::<N>::TWIST_MASS].on(machine);
+        let friction = head[Layout::<N>::FRICTION];
+        let elapsed = Wide::splat(machine, times.elapsed);
         let rows =
             &mut head[Layout::<N>::TWIST_ROWS..Layout::<N>::TWIST_ROWS + Layout::<N>::TWISTS * Layout::<N>::TWIST_ROW];
-        let mut wanted = [Lanes::ZERO; MAX];
-        let mut largest = Lanes::splat(Real::MIN_POSITIVE);
+        let mut wanted = [Wide::zero(machine); MAX];
+        let mut largest = Wide::splat(machine, Real::MIN_POSITIVE);
         for (t, row) in rows.chunks_exact(Layout::<N>::TWIST_ROW).enumerate() {
-            let velocity = row[Layout::<N>::TWIST_VELOCITY]
-                + elapsed * row[Layout::<N>::TWIST_ACCELERATION]
+            let velocity = Self::base(row[Layout::<N>::TWIST_VELOCITY], row[Layout::<N>::TWIST_ACCELERATION], elapsed)
                 + p.measure_angular(&row[..2 * Self::K]);
-            wanted[t] = row[Layout::<N>::TWIST_IMPULSE] - mass * velocity;
+            wanted[t] = row[Layout::<N>::TWIST_IMPULSE].on(machine) - mass * velocity;
             largest = largest.max(wanted[t]).max(-wanted[t]);
         }
-        let mut limit = friction * Self::twisting_load(points, &wanted, largest);
+        let mut limit = Self::twisting_load(points, &wanted, largest) * friction;
         if let Some(resisted) = resisted {
             limit += resisted * Self::share_of_largest(&wanted, largest);
         }
-        let factor = limit.div(largest).min(Lanes::splat(1.0));
+        let factor = limit.div(largest).min(Wide::splat(machine, 1.0));
         for (t, row) in rows.chunks_exact_mut(Layout::<N>::TWIST_ROW).enumerate() {
             let impulse = wanted[t] * factor;
             let change = impulse - row[Layout::<N>::TWIST_IMPULSE];
-            row[Layout::<N>::TWIST_IMPULSE] = impulse;
+            row[Layout::<N>::TWIST_IMPULSE] = impulse.lanes();
             p.apply_angular(&row[..2 * Self::K], change);
         }
     }
 
     /// The largest part of a twist over its length.
     #[inline(always)]
-    fn share_of_largest(twist: &[Lanes; MAX], largest: Lanes) -> Lanes {
-        let scale = Lanes::splat(1.0).div(largest);
-        let mut length_sq = Lanes::ZERO;
+    fn share_of_largest(twist: &[Wide<M>; MAX], largest: Wide<M>) -> Wide<M> {
+        let one = Wide::splat(largest.machine(), 1.0);
+        let scale = one.div(largest);
+        let mut length_sq = Wide::zero(largest.machine());
         for part in &twist[..Layout::<N>::TWISTS] {
             let part = *part * scale;
             length_sq += part * part;
         }
-        Lanes::splat(1.0).div(length_sq.max(Lanes::splat(1.0)).sqrt())
+        one.div(length_sq.max(one).sqrt())
     }
 
     /// What a unit of friction coefficient can hold against the twist B, in parts of B over `largest`: the points at ρ
     /// rub against their motion B·ρ, which gives the torque Σλ|B·ρ|/|B| in the direction of B. So extent across the
     /// planes of the twist does not count.
     #[inline(always)]
-    fn twisting_load(points: &[Lanes], twist: &[Lanes; MAX], largest: Lanes) -> Lanes {
+    fn twisting_load(points: &[Lanes], twist: &[Wide<M>; MAX], largest: Wide<M>) -> Wide<M> {
+        let machine = largest.machine();
+        let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
         let slides = Layout::<N>::SLIDES;
-        let scale = Lanes::splat(1.0).div(largest);
-        let mut length_sq = Lanes::ZERO;
-        let mut unit = [Lanes::ZERO; MAX];
+        let scale = one.div(largest);
+        let mut length_sq = zero;
+        let mut unit = [zero; MAX];
         for t in 0..Layout::<N>::TWISTS {
             unit[t] = twist[t] * scale;
             length_sq += unit[t] * unit[t];
         }
-        let mut load = Lanes::ZERO;
+        let mut load = zero;
         for row in points.chunks_exact(Layout::<N>::POINT_ROW) {
             let lever = &row[Layout::<N>::POINT_LEVER..];
-            let mut motion = [Lanes::ZERO; N];
+            let mut motion = [zero; N];
             let mut plane = 0;
             for s in 0..slides {
                 for t in s + 1..slides {
@@ -310,13 +334,13 @@ impl<const N: usize> Passes<N> {
                     plane += 1;
                 }
             }
-            let mut motion_sq = Lanes::ZERO;
+            let mut motion_sq = zero;
             for value in &motion[..slides] {
                 motion_sq += *value * *value;
             }
-            load += row[Layout::<N>::POINT_IMPULSE] * motion_sq.sqrt();
+            load += motion_sq.sqrt() * row[Layout::<N>::POINT_IMPULSE];
         }
-        load.div(length_sq.max(Lanes::splat(1.0)))
+        load.div(length_sq.max(one))
     }
 
     /// Poses the problem of a block's normal rows.
@@ -325,37 +349,40 @@ impl<const N: usize> Passes<N> {
         block: &Block,
         head: &[Lanes],
         points: &[Lanes],
-        p: &Pairing<N>,
+        p: &Pairing<N, M>,
         times: &PassTimes,
-        displacement: &Pairing<N>,
         problem: &mut NormalProblem,
     ) {
+        let machine = p.machine;
         let normal = &head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
-        let zero = Lanes::ZERO;
-        let elapsed = Lanes::splat(times.elapsed);
-        let (moved, moved_sq) = (Lanes::splat(times.moved), Lanes::splat(times.moved_sq));
-        let inverse_h = Lanes::splat(times.inverse_h);
-        let (bias_rate, softness) =
-            if times.push { (head[Layout::<N>::BIAS_RATE], head[Layout::<N>::SOFTNESS]) } else { (zero, zero) };
-        let slop = Lanes::splat(times.slop);
-        let push_limit = Lanes::splat(-times.push_out_speed);
+        let zero = Wide::zero(machine);
+        let elapsed = Wide::splat(machine, times.elapsed);
+        let (moved, moved_sq) = (Wide::splat(machine, times.moved), Wide::splat(machine, times.moved_sq));
+        let inverse_h = Wide::splat(machine, times.inverse_h);
+        let (bias_rate, softness) = if times.push {
+            (head[Layout::<N>::BIAS_RATE].on(machine), head[Layout::<N>::SOFTNESS].on(machine))
+        } else {
+            (zero, zero)
+        };
+        let slop = Wide::splat(machine, times.slop);
+        let push_limit = Wide::splat(machine, -times.push_out_speed);
         let (mut closed, mut velocities) = ([zero; N], [zero; N]);
         for (t, row) in Self::field(block, head).enumerate() {
             let (velocity, acceleration) = (row[Layout::<N>::FIELD_VELOCITY], row[Layout::<N>::FIELD_ACCELERATION]);
-            closed[t] = moved * velocity + moved_sq * acceleration + displacement.measure_angular(row);
-            velocities[t] = velocity + elapsed * acceleration + p.measure_angular(row);
+            closed[t] = moved * velocity + moved_sq * acceleration + p.moved_angular(row);
+            velocities[t] = Self::base(velocity, acceleration, elapsed) + p.measure_angular(row);
         }
-        closed[0] += displacement.measure_linear(normal);
+        closed[0] += p.moved_linear(normal);
         velocities[0] += p.measure_linear(normal);
         for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             let lever = &row[Layout::<N>::POINT_LEVER..];
-            let gap = row[Layout::<N>::POINT_GAP] + row[Layout::<N>::POINT_ARC] + value_at(&closed, lever);
+            let gap = row[Layout::<N>::POINT_GAP].on(machine) + row[Layout::<N>::POINT_ARC] + value_at(&closed, lever);
             let velocity = value_at(&velocities, lever);
             // Ahead of touching: approach may close the gap within the substep. Overlapping: pushed apart softly.
             let overlap = (gap + slop).min(zero);
             let bias = gap.select_positive(gap * inverse_h, (bias_rate * overlap).max(push_limit));
-            problem.excess[index] = velocity + bias;
-            problem.softness[index] = gap.select_positive(zero, softness);
+            problem.excess[index] = (velocity + bias).lanes();
+            problem.softness[index] = gap.select_positive(zero, softness).lanes();
         }
     }
 
@@ -367,7 +394,7 @@ impl<const N: usize> Passes<N> {
 
     /// Applies impulses along the normal: their sum, and their moments along the tangents.
     #[inline(always)]
-    fn apply_to_field(block: &Block, head: &[Lanes], sum: &[Lanes; N], p: &mut Pairing<N>) {
+    fn apply_to_field(block: &Block, head: &[Lanes], sum: &[Wide<M>; N], p: &mut Pairing<N, M>) {
         for (row, impulse) in Self::field(block, head).zip(sum) {
             p.apply_angular(row, *impulse);
         }
@@ -381,16 +408,18 @@ impl<const N: usize> Passes<N> {
         head: &[Lanes],
         points: &mut [Lanes],
         response: &[Lanes],
-        p: &mut Pairing<N>,
+        p: &mut Pairing<N, M>,
         problem: &mut NormalProblem,
     ) {
-        let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
+        let machine = p.machine;
+        let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
         for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
             // Lanes with fewer points have no response there.
-            problem.allowed[index] = response[upper(block.points, index, index)].select_positive(one, zero);
+            let response = response[upper(block.points, index, index)].on(machine);
+            problem.allowed[index] = response.select_positive(one, zero).lanes();
         }
-        problem.solve(response, block.points, head[Layout::<N>::STIFFENER]);
+        problem.solve(machine, response, block.points, head[Layout::<N>::STIFFENER]);
         Self::apply_solution(block, head, points, p, problem);
     }
 
@@ -399,76 +428,91 @@ impl<const N: usize> Passes<N> {
         block: &Block,
         head: &[Lanes],
         points: &mut [Lanes],
-        p: &mut Pairing<N>,
+        p: &mut Pairing<N, M>,
         problem: &NormalProblem,
     ) {
-        let mut sum = [Lanes::ZERO; N];
+        let mut sum = [Wide::zero(p.machine); N];
         for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
             let impulse = problem.impulse[index];
             row[Layout::<N>::POINT_IMPULSE] = impulse;
-            add_at(&mut sum, impulse - problem.held[index], &row[Layout::<N>::POINT_LEVER..]);
+            add_at(&mut sum, impulse.on(p.machine) - problem.held[index], &row[Layout::<N>::POINT_LEVER..]);
         }
         Self::apply_to_field(block, head, &sum, p);
     }
 
     #[inline(always)]
-    fn bounce(contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
+    fn bounce(machine: M, contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
         let ContactRows { blocks, rows, problem } = contacts;
-        let (zero, one) = (Lanes::ZERO, Lanes::splat(1.0));
-        let elapsed = Lanes::splat(times.elapsed);
-        let threshold = Lanes::splat(-times.restitution_threshold);
         for block in blocks.iter().filter(|block| block.bounces) {
             let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
-            let mut p = Pairing::<N>::gather(block, rows, state);
+            let mut p = Pairing::<N, M>::gather(machine, block, rows, state);
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
             let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
             let response = &rest[..block.points * (block.points + 1) / 2];
-            let displacement = Pairing::<N>::gather_displacement(block, head, state);
-            let before = Self::impulse(head, points);
-            let restitution = head[Layout::<N>::RESTITUTION];
-            let (mut starts, mut accelerations, mut changes) = ([zero; N], [zero; N], [zero; N]);
-            for (t, row) in Self::field(block, head).enumerate() {
-                starts[t] = row[Layout::<N>::FIELD_VELOCITY];
-                accelerations[t] = row[Layout::<N>::FIELD_ACCELERATION];
-                changes[t] = p.measure_angular(row);
-            }
-            changes[0] += p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
-            for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
-                let lever = &row[Layout::<N>::POINT_LEVER..];
-                let (at_start, acceleration) = (value_at(&starts, lever), value_at(&accelerations, lever));
-                // Between the start of the step and the touch the body falls on; without this, a ball that gives back all
-                // of its speed would lose what it gained over that gap at every bounce.
-                let gap = row[Layout::<N>::POINT_GAP].max(zero);
-                let gained = Lanes::splat(-2.0) * acceleration * gap;
-                let approach = -(at_start * at_start + gained).max(zero).sqrt();
-                let velocity = at_start + elapsed * acceleration + value_at(&changes, lever);
-                let fast = (threshold - at_start).select_positive(restitution, zero);
-                problem.excess[index] = velocity + fast * approach;
-                problem.softness[index] = zero;
-                problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
-                // What was met in this step bounces; what presses and is slow must go on pressing.
-                let met = row[Layout::<N>::POINT_STEP_IMPULSE].select_positive(one, zero);
-                let presses = row[Layout::<N>::POINT_IMPULSE].select_positive(one, zero);
-                problem.allowed[index] = fast.select_positive(met, presses);
-            }
-            problem.solve(response, block.points, head[Layout::<N>::STIFFENER]);
+            let before = Self::impulse(machine, head, points);
+            Self::pose_bounce(block, head, points, &p, times, problem);
+            problem.solve(machine, response, block.points, head[Layout::<N>::STIFFENER]);
             // Lanes that don't bounce keep what they have.
-            for index in 0..block.points {
-                problem.impulse[index] = restitution.select_positive(problem.impulse[index], problem.held[index]);
-            }
+            let restitution = head[Layout::<N>::RESTITUTION].on(machine);
             for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
-                row[Layout::<N>::POINT_STEP_IMPULSE] += problem.impulse[index] - problem.held[index];
+                let (solved, held) = (problem.impulse[index].on(machine), problem.held[index].on(machine));
+                let impulse = restitution.select_positive(solved, held);
+                problem.impulse[index] = impulse.lanes();
+                let sum = row[Layout::<N>::POINT_STEP_IMPULSE].on(machine) + (impulse - held);
+                row[Layout::<N>::POINT_STEP_IMPULSE] = sum.lanes();
             }
             Self::apply_solution(block, head, points, &mut p, problem);
-            Self::note_excess(head, points, &before, &displacement, times);
+            Self::note_excess(head, points, &before, &p, times);
             p.scatter(block, state);
+        }
+    }
+
+    /// Poses the problem of a block's bounces.
+    #[inline(always)]
+    fn pose_bounce(
+        block: &Block,
+        head: &[Lanes],
+        points: &[Lanes],
+        p: &Pairing<N, M>,
+        times: &PassTimes,
+        problem: &mut NormalProblem,
+    ) {
+        let machine = p.machine;
+        let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
+        let elapsed = Wide::splat(machine, times.elapsed);
+        let threshold = Wide::splat(machine, -times.restitution_threshold);
+        let restitution = head[Layout::<N>::RESTITUTION].on(machine);
+        let (mut starts, mut accelerations, mut changes) = ([zero; N], [zero; N], [zero; N]);
+        for (t, row) in Self::field(block, head).enumerate() {
+            starts[t] = row[Layout::<N>::FIELD_VELOCITY].on(machine);
+            accelerations[t] = row[Layout::<N>::FIELD_ACCELERATION].on(machine);
+            changes[t] = p.measure_angular(row);
+        }
+        changes[0] += p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
+        for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
+            let lever = &row[Layout::<N>::POINT_LEVER..];
+            let (at_start, acceleration) = (value_at(&starts, lever), value_at(&accelerations, lever));
+            // Between the start of the step and the touch the body falls on; without this, a ball that gives back all
+            // of its speed would lose what it gained over that gap at every bounce.
+            let gap = row[Layout::<N>::POINT_GAP].on(machine).max(zero);
+            let gained = Wide::splat(machine, -2.0) * acceleration * gap;
+            let approach = -(at_start * at_start + gained).max(zero).sqrt();
+            let velocity = at_start + elapsed * acceleration + value_at(&changes, lever);
+            let fast = (threshold - at_start).select_positive(restitution, zero);
+            problem.excess[index] = (velocity + fast * approach).lanes();
+            problem.softness[index] = Lanes::ZERO;
+            problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
+            // What was met in this step bounces; what presses and is slow must go on pressing.
+            let met = row[Layout::<N>::POINT_STEP_IMPULSE].on(machine).select_positive(one, zero);
+            let presses = row[Layout::<N>::POINT_IMPULSE].on(machine).select_positive(one, zero);
+            problem.allowed[index] = fast.select_positive(met, presses).lanes();
         }
     }
 }
 
 /// Value of an affine field at a place along the tangents: its value at the centre, and its slopes.
 #[inline(always)]
-fn value_at<const N: usize>(field: &[Lanes; N], place: &[Lanes]) -> Lanes {
+fn value_at<const N: usize, M: Machine>(field: &[Wide<M>; N], place: &[Lanes]) -> Wide<M> {
     let mut value = field[0];
     for (slope, along) in field[1..].iter().zip(place) {
         value += *slope * *along;
@@ -478,7 +522,7 @@ fn value_at<const N: usize>(field: &[Lanes; N], place: &[Lanes]) -> Lanes {
 
 /// Adds an impulse at a place to a sum of impulses and their moments along the tangents.
 #[inline(always)]
-fn add_at<const N: usize>(sum: &mut [Lanes; N], impulse: Lanes, place: &[Lanes]) {
+fn add_at<const N: usize, M: Machine>(sum: &mut [Wide<M>; N], impulse: Wide<M>, place: &[Lanes]) {
     sum[0] += impulse;
     for (moment, along) in sum[1..].iter_mut().zip(place) {
         *moment += impulse * *along;
