@@ -40,7 +40,7 @@ use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
-use contacts::{Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Solve, WarmStart};
+use contacts::{Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Respond, Solve, WarmStart};
 use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
 use lanes::Lanes;
@@ -201,7 +201,9 @@ impl<const N: usize> Solver<N> {
             stiff: Softness::new(2.0 * tuning.contact_hz, tuning.contact_damping_ratio, h),
         };
         let (bodies, active, pairs) = (&self.bodies, &self.active, &*input.pairs);
+        let processor = self.processor;
         let fill = |block: &Block, rows: &mut [Lanes]| {
+            let mut counts = Lanes::ZERO;
             for (lane, &index) in block.contacts.iter().enumerate() {
                 if index == Group::EMPTY {
                     continue;
@@ -225,7 +227,9 @@ impl<const N: usize> Solver<N> {
                     }
                 };
                 prepare.fill(block, rows, lane, contact, a, b);
+                counts.0[lane] = contact.manifold.points().len() as Real;
             }
+            processor.run(Respond::<N> { block, rows, counts });
         };
         let (blocks, rows) = (self.contacts.blocks.as_slice(), self.contacts.rows.as_mut_slice());
         match input.pool {

@@ -67,6 +67,13 @@ impl<M: Machine> Wide<M> {
         self.with(self.machine.div(self.vector, other.vector))
     }
 
+    /// 1 over it where it is > 0, else 0.
+    #[inline(always)]
+    pub(crate) fn inverse_or_zero(self) -> Self {
+        let inverse = Self::splat(self.machine, 1.0).div(self);
+        self.select_positive(inverse, Self::zero(self.machine))
+    }
+
     /// Lane by lane: `positive` where `self` > 0, else `otherwise`.
     #[inline(always)]
     pub(crate) fn select_positive(self, positive: Self, otherwise: Self) -> Self {

@@ -14,6 +14,7 @@ mod layout;
 mod normal;
 mod pairing;
 mod prepare;
+mod response;
 mod solve;
 
 use super::bodies::SolverBody;
@@ -23,6 +24,7 @@ use crate::pairs::Surface;
 pub(crate) use excess::excess;
 pub(crate) use layout::Layout;
 pub(crate) use prepare::{Prepare, store};
+pub(crate) use response::Respond;
 pub(crate) use solve::{Bounce, PassTimes, Solve, WarmStart};
 
 /// One group of contacts and where its rows are.

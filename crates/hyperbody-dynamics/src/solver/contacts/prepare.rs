@@ -2,7 +2,6 @@
 
 use hyperbody_math::{Bivector, Vector};
 
-use super::normal::upper;
 use super::{Block, Layout};
 use crate::pairs::Contact;
 use crate::solver::bodies::{MAX_PLANES, Sizes, SolverBody};
@@ -82,15 +81,6 @@ impl<const N: usize> Lane<'_, N> {
         }
     }
 
-    /// Response of one row to another through the rotation of both bodies; their arms stand at the given positions.
-    fn response_of_arms(&self, row: usize, other: usize) -> f64 {
-        let mut response = 0.0;
-        for k in 0..2 * Sizes::<N>::K {
-            response += f64::from(self.rows[row + k].0[self.lane]) * f64::from(self.rows[other + k].0[self.lane]);
-        }
-        response
-    }
-
     fn offsets(&self, point: Vector<N>) -> Offsets<N> {
         Offsets { a: point - self.a.centre, b: point - self.b.centre }
     }
@@ -129,49 +119,20 @@ impl<const N: usize> Lane<'_, N> {
         let r = self.offsets(centre);
         let (velocity, acceleration) = self.base_motion(r);
         let velocity = velocity + self.b.surface - self.a.surface + contact.surface;
-        let mut arms = [([0.0; MAX_PLANES], [0.0; MAX_PLANES]); N];
         for t in 0..Layout::<N>::SLIDES {
             let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
             let tangent = tangents[t];
             for i in 0..N {
                 self.set(at + i, tangent[i]);
             }
-            arms[t] = (self.a.arm(r.a, tangent), self.b.arm(r.b, tangent));
-            self.set_arms(at + Layout::<N>::SLIDE_ARM_A, &arms[t].0, &arms[t].1);
+            self.set_arms(at + Layout::<N>::SLIDE_ARM_A, &self.a.arm(r.a, tangent), &self.b.arm(r.b, tangent));
             self.set(at + Layout::<N>::SLIDE_VELOCITY, velocity.dot(tangent));
             self.set(at + Layout::<N>::SLIDE_ACCELERATION, acceleration.dot(tangent));
             self.set(at + Layout::<N>::SLIDE_IMPULSE, contact.friction_impulse.dot(tangent));
         }
-        self.sliding_mass(&arms);
     }
 
-    /// Inverse of T K Tᵀ with K the paper's response matrix summed over both bodies. Symmetric and positive definite,
-    /// because (m_a + m_b)⁻¹ stands on its diagonal.
-    fn sliding_mass(&mut self, arms: &[([f64; MAX_PLANES], [f64; MAX_PLANES]); N]) {
-        let slides = Layout::<N>::SLIDES;
-        let mut k = [[0.0; N]; N];
-        for s in 0..slides {
-            for t in 0..slides {
-                let mut sum = if s == t { self.inverse_mass_sum() } else { 0.0 };
-                for plane in 0..Sizes::<N>::K {
-                    sum += arms[s].0[plane] * arms[t].0[plane] + arms[s].1[plane] * arms[t].1[plane];
-                }
-                k[s][t] = sum;
-            }
-        }
-        let inverse = invert_positive_definite(k, slides);
-        let mut at = Layout::<N>::SLIDE_MASS;
-        for s in 0..slides {
-            for t in s..slides {
-                self.set(at, inverse[s][t]);
-                at += 1;
-            }
-        }
-    }
-
-    /// Twisting rows are the planes of the tangent space; their bivectors are orthonormal. One mass serves them all: the
-    /// inverse of a bound on the largest eigenvalue of their response matrix, mean + deviation·√(k−1) (H. Wolkowicz and
-    /// G. P. H. Styan, 1980), exact for isotropic bodies, safe for others, and the same for every choice of tangents.
+    /// Twisting rows are the planes of the tangent space; their bivectors are orthonormal.
     fn twisting(&mut self, contact: &Contact<N>, tangents: &[Vector<N>; N]) {
         let spin = self.b.angular_velocity - self.a.angular_velocity;
         let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
@@ -188,35 +149,13 @@ impl<const N: usize> Lane<'_, N> {
                 row += 1;
             }
         }
-        let mass = self.mass_of_turning(row, |index| Layout::<N>::TWIST_ROWS + index * Layout::<N>::TWIST_ROW);
-        self.set(Layout::<N>::TWIST_MASS, mass);
-    }
-
-    /// Inverse of a bound on the largest eigenvalue of the response matrix of rows whose arms stand at the given positions.
-    fn mass_of_turning(&self, rows: usize, place: impl Fn(usize) -> usize) -> f64 {
-        let (mut trace, mut trace_of_square) = (0.0, 0.0);
-        for s in 0..rows {
-            for t in 0..rows {
-                let response = self.response_of_arms(place(s), place(t));
-                trace += if s == t { response } else { 0.0 };
-                trace_of_square += response * response;
-            }
-        }
-        let count = rows.max(1) as f64;
-        let mean = trace / count;
-        let variance = (trace_of_square / count - mean * mean).max(0.0);
-        let largest = mean + (variance * (count - 1.0)).sqrt();
-        if largest > 0.0 { 1.0 / largest } else { 0.0 }
     }
 
     /// Rolling rows are the slopes of the normal field: the planes of the normal and each tangent.
     fn resistance(&mut self, contact: &Contact<N>, tangents: &[Vector<N>; N], block: &Block) {
         let start = Layout::<N>::resistance_start(block);
-        let slope = |t: usize| Layout::<N>::field_start(block) + (t + 1) * Layout::<N>::FIELD_ROW;
         self.set(start + Layout::<N>::ROLLING, contact.resistance.0);
         self.set(start + Layout::<N>::TWISTING, contact.resistance.1);
-        let mass = self.mass_of_turning(Layout::<N>::SLIDES, slope);
-        self.set(start + Layout::<N>::ROLLING_MASS, mass);
         for t in 0..Layout::<N>::SLIDES {
             let plane = Bivector::wedge(tangents[t], contact.manifold.normal);
             self.set(start + Layout::<N>::ROLLING_IMPULSES + t, contact.twist_impulse.dot(&plane));
@@ -256,37 +195,6 @@ impl<const N: usize> Lane<'_, N> {
                 self.set(at + Layout::<N>::POINT_LEVER + t, (point.position - centre).dot(tangents[t]));
             }
         }
-        self.responses(points.len(), block);
-    }
-
-    /// Responses of the points to each other, L G Lᵀ with L the places of the points and G the responses of the field.
-    fn responses(&mut self, points: usize, block: &Block) {
-        let rows = Layout::<N>::field_rows(block);
-        let field = |t: usize| Layout::<N>::field_start(block) + t * Layout::<N>::FIELD_ROW;
-        let mut g = [[0.0; N]; N];
-        for s in 0..rows {
-            for t in s..rows {
-                g[s][t] = self.response_of_arms(field(s), field(t));
-                g[t][s] = g[s][t];
-            }
-        }
-        g[0][0] += self.inverse_mass_sum();
-        let start = Layout::<N>::response_start(block);
-        for i in 0..points {
-            let place = self.place(i, block);
-            let to_place: [f64; N] = std::array::from_fn(|t| (0..rows).map(|s| place[s] * g[s][t]).sum());
-            for j in i..points {
-                let other = self.place(j, block);
-                let response: f64 = (0..rows).map(|t| to_place[t] * other[t]).sum();
-                self.set(start + upper(block.points, i, j), response);
-            }
-        }
-    }
-
-    /// Weights of the rows of the field at a point: one, and its place along the tangents.
-    fn place(&self, index: usize, block: &Block) -> [f64; N] {
-        let at = Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_LEVER;
-        std::array::from_fn(|t| if t == 0 { 1.0 } else { f64::from(self.rows[at + t - 1].0[self.lane]) })
     }
 }
 
@@ -323,31 +231,4 @@ pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, 
         let total = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_STEP_IMPULSE;
         contact.step_impulses[index] = rows[total].0[lane];
     }
-}
-
-/// Inverse of the leading `size`×`size` block of a symmetric positive definite matrix, by Gauss–Jordan elimination,
-/// which needs no pivoting there.
-pub(crate) fn invert_positive_definite<const N: usize>(mut m: [[f64; N]; N], size: usize) -> [[f64; N]; N] {
-    let mut inverse = [[0.0; N]; N];
-    for i in 0..size {
-        inverse[i][i] = 1.0;
-    }
-    for k in 0..size {
-        let scale = 1.0 / m[k][k];
-        for j in 0..size {
-            m[k][j] *= scale;
-            inverse[k][j] *= scale;
-        }
-        for i in 0..size {
-            if i == k {
-                continue;
-            }
-            let factor = m[i][k];
-            for j in 0..size {
-                m[i][j] -= factor * m[k][j];
-                inverse[i][j] -= factor * inverse[k][j];
-            }
-        }
-    }
-    inverse
 }
