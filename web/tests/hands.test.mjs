@@ -95,3 +95,45 @@ test("keys move and turn the slice, and bring it home", async () => {
   assert.deepEqual(errors, []);
   await context.close();
 });
+
+test("two fingers on something immovable move the camera, and aside a second finger turns what is held", async () => {
+  const context = await browser.newContext(PHONE);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await settle(page);
+  const session = await context.newCDPSession(page);
+  const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([px, py, id]) => ({ x: px, y: py, id })) });
+  const body = await idOf(page, "tesseract");
+  // Turned: its first row no longer points along x.
+  const { x, y } = await whereIs(page, body);
+  await page.touchscreen.tap(x, y);
+  await until(page, (id) => window.hyperbody.frame.selected?.body === id, body);
+  await touch("touchStart", [x, y, 1]);
+  for (let k = 1; k <= 4; k++) await touch("touchMove", [x, y - 8 * k, 1]);
+  await touch("touchStart", [x, y - 32, 1], [60, 500, 2]);
+  for (let k = 1; k <= 15; k++) await touch("touchMove", [x, y - 32, 1], [60 + 10 * k, 500, 2]);
+  await until(page, () => Math.abs(window.hyperbody.frame.selected.rotation[0][2]) > 0.5);
+  await touch("touchEnd");
+  await until(page, () => window.hyperbody.frame.hands.length === 0);
+  // Frozen, nothing moves it: two fingers on it bring the camera nearer instead.
+  await page.keyboard.press("k");
+  await until(page, () => window.hyperbody.frame.selected.frozen);
+  const place = await whereIs(page, body);
+  const spread = async () => {
+    const [a, b] = [await idOf(page, "ball"), body];
+    const [p, q] = [await whereIs(page, a), await whereIs(page, b)];
+    return Math.hypot(p.x - q.x, p.y - q.y);
+  };
+  const before = await spread();
+  await touch("touchStart", [place.x, place.y, 1]);
+  await touch("touchStart", [place.x, place.y, 1], [place.x + 40, place.y, 2]);
+  for (let k = 1; k <= 12; k++) await touch("touchMove", [place.x, place.y, 1], [place.x + 40 + 6 * k, place.y, 2]);
+  await touch("touchEnd");
+  let after = before;
+  for (let k = 0; k < 50 && after < 1.1 * before; k++) {
+    await page.waitForTimeout(100);
+    after = await spread();
+  }
+  assert.ok(after >= 1.1 * before, `two fingers that went apart left the picture as it was: ${before} and ${after} pixels`);
+  assert.deepEqual(errors, []);
+  await context.close();
+});

@@ -7,6 +7,7 @@ import { DESKTOP, idOf, launch, open, serve, until } from "./support.mjs";
 const EMULATOR = fileURLToPath(new URL("../node_modules/iwer/build/iwer.min.js", import.meta.url));
 /** Number of the right controller's hand in frames (`HAND.right`). */
 const RIGHT = 11;
+const LEFT = 10;
 
 let browser, server;
 before(async () => ([browser, server] = await Promise.all([launch(), serve()])));
@@ -15,10 +16,10 @@ after(async () => {
   server?.close();
 });
 
-/** In the page: puts the right controller at a place of the world and points it at another. */
-const aim = (page, place, goal) => page.evaluate(([from, to]) => {
+/** In the page: puts a controller at a place of the world and points it at another. */
+const aim = (page, place, goal, side = "right") => page.evaluate(([from, to, which]) => {
   const { position, scale } = window.hyperbody.viewer;
-  const controller = window.headset.controllers.right;
+  const controller = window.headset.controllers[which];
   controller.position.set(...from.map((value, axis) => (value - position[axis]) / scale));
   const d = to.map((value, axis) => value - from[axis]);
   const length = Math.hypot(...d);
@@ -26,7 +27,7 @@ const aim = (page, place, goal) => page.evaluate(([from, to]) => {
   // The shortest turn from (0, 0, −1) to d: w = 1 + cos, axis = (0, 0, −1) × d.
   const norm = Math.hypot(y, -x, 1 - z);
   controller.quaternion.set(y / norm, -x / norm, 0, (1 - z) / norm);
-}, [place, goal]);
+}, [place, goal, side]);
 
 const centreInSlice = (page, body) => page.evaluate((id) => {
   const { centres } = window.hyperbody.frame;
@@ -34,7 +35,8 @@ const centreInSlice = (page, body) => page.evaluate((id) => {
   return null;
 }, body);
 
-test("a controller grabs a body, carries it, feels it hit the floor, and lets go", async () => {
+/** A context whose browser has a headset, emulated. */
+async function withHeadset() {
   const context = await browser.newContext(DESKTOP);
   await context.addInitScript({ path: EMULATOR });
   await context.addInitScript(() => {
@@ -42,10 +44,21 @@ test("a controller grabs a body, carries it, feels it hit the floor, and lets go
     window.headset.installRuntime({ forceInstall: true });
     window.pulses = [];
   });
-  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
-  await until(page, () => window.hyperbody.frame.time > 1.2, null, 30_000);
+  return context;
+}
+
+async function enter(page) {
   await page.getByRole("button", { name: "Enter VR" }).click();
   await until(page, () => window.headset.activeSession && window.hyperbody.viewer.presenting);
+}
+
+const pressTrigger = (page, side, value) => page.evaluate(([which, how]) => window.headset.controllers[which].updateButtonValue("trigger", how), [side, value]);
+
+test("a controller grabs a body, carries it, feels it hit the floor, and lets go", async () => {
+  const context = await withHeadset();
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await until(page, () => window.hyperbody.frame.time > 1.2, null, 30_000);
+  await enter(page);
   await page.evaluate(() => {
     for (const source of window.headset.activeSession.inputSources) {
       const [actuator] = source.gamepad.hapticActuators;
@@ -85,5 +98,100 @@ test("a controller grabs a body, carries it, feels it hit the floor, and lets go
   await page.evaluate(() => window.headset.controllers.right.updateButtonValue("trigger", 0));
   await until(page, () => window.hyperbody.frame.hands.length === 0);
   assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("two controllers hold two bodies, and each moves its own", async () => {
+  const context = await withHeadset();
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await until(page, () => window.hyperbody.frame.time > 1.2, null, 30_000);
+  await enter(page);
+  const hold = async (side, name, hand) => {
+    const body = await idOf(page, name);
+    const centre = await centreInSlice(page, body);
+    // Straight from above: nothing else stands in the way.
+    const place = [centre[0], centre[1] + 1.6, centre[2] + 0.01];
+    await aim(page, place, centre, side);
+    await page.waitForTimeout(300);
+    await pressTrigger(page, side, 1);
+    await until(page, ([which, id]) => window.hyperbody.frame.hands.some((held) => held.hand === which && held.body === id), [hand, body]);
+    return { side, body, centre, place };
+  };
+  const right = await hold("right", "ball", RIGHT);
+  const left = await hold("left", "tesseract", LEFT);
+  assert.equal(await page.evaluate(() => window.hyperbody.frame.hands.length), 2);
+  const move = async ({ side, place, centre }, by) => {
+    for (let k = 1; k <= 8; k++) {
+      const shifted = (point) => point.map((value, axis) => value + (by[axis] * k) / 8);
+      await aim(page, shifted(place), shifted(centre), side);
+      await page.waitForTimeout(30);
+    }
+  };
+  const reaches = (body, axis, least) => until(page, ([id, which, value]) => {
+    const { centres } = window.hyperbody.frame;
+    for (let at = 0; at < centres.length; at += 5) if (centres[at] === id) return centres[at + 1 + which] > value;
+    return false;
+  }, [body, axis, least]);
+  // The right hand lifts; what the left one holds stays where it is held.
+  await move(right, [0, 0.9, 0]);
+  await reaches(right.body, 1, right.centre[1] + 0.7);
+  const stayed = await centreInSlice(page, left.body);
+  assert.ok(Math.hypot(...stayed.map((value, axis) => value - left.centre[axis])) < 0.25, `the left hand's body went from ${left.centre} to ${stayed}`);
+  // The left hand lifts too, higher; the right one stays up.
+  await move(left, [0, 1.4, 0]);
+  await reaches(left.body, 1, left.centre[1] + 1.2);
+  const up = await centreInSlice(page, right.body);
+  assert.ok(Math.abs(up[1] - right.centre[1] - 0.9) < 0.25, `the right hand's body is at ${up}`);
+  // Letting go with one hand leaves the other its own.
+  await pressTrigger(page, "right", 0);
+  await until(page, (hand) => window.hyperbody.frame.hands.length === 1 && window.hyperbody.frame.hands[0].hand === hand, LEFT);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("a pressed stick teleports", async () => {
+  const context = await withHeadset();
+  const { page } = await open(context, server.address, { scene: "hello4d" });
+  await enter(page);
+  const before = await page.evaluate(() => window.hyperbody.viewer.position);
+  await aim(page, [before[0], before[1] + 1.4, before[2]], [before[0] + 1, before[1], before[2] - 1]);
+  await page.waitForTimeout(200);
+  await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 1));
+  await page.waitForTimeout(300);
+  await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 0));
+  await until(page, ([x, z]) => Math.abs(window.hyperbody.viewer.position[0] - x - 1) < 0.15 && Math.abs(window.hyperbody.viewer.position[2] - z + 1) < 0.15, [before[0], before[2]]);
+  await page.evaluate(() => window.headset.activeSession.end());
+  await until(page, () => !window.hyperbody.viewer.presenting);
+  await context.close();
+});
+
+test("a session that cannot be set up is ended, and the page says why", async () => {
+  const context = await withHeadset();
+  const { page } = await open(context, server.address, { scene: "hello4d" });
+  // It has no space to stand in.
+  await page.evaluate(() => {
+    const system = navigator.xr;
+    const request = system.requestSession.bind(system);
+    system.requestSession = async (...asked) => {
+      const session = await request(...asked);
+      session.requestReferenceSpace = () => Promise.reject(new Error("no floor"));
+      window.refused = session;
+      session.addEventListener("end", () => (window.ended = true));
+      return session;
+    };
+  });
+  const told = page.getByText("VR could not start: no floor").waitFor();
+  await page.getByRole("button", { name: "Enter VR" }).click();
+  await told;
+  await until(page, () => window.ended && !window.hyperbody.viewer.presenting);
+  await context.close();
+});
+
+test("without a headset the page says what is missing", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page } = await open(context, server.address, { scene: "hello4d" });
+  await page.getByRole("button", { name: "More" }).click();
+  await page.getByTestId("vr-missing").waitFor();
+  assert.match(await page.getByTestId("vr-missing").innerText(), /headset/);
   await context.close();
 });

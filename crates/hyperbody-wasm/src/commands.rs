@@ -8,6 +8,7 @@ use hyperbody_scene::{Body, RotationSpec, Scene, ShapeSpec};
 use serde_json::{Value, json};
 
 use crate::cut::Drawn;
+use crate::draw::Drawing;
 use crate::hands::Hand;
 use crate::message::{Format, Kind, Message, Plane, Refusal};
 use crate::report::numbers;
@@ -26,8 +27,11 @@ pub(crate) struct Done {
     pub(crate) bytes: Option<Vec<u8>>,
 }
 
-/// Bodies that a page may add to a scene's own.
+/// Bodies up to which a page may add some.
 const MOST_BODIES: usize = 4000;
+
+/// The same with those that were removed, which keep their numbers.
+const MOST_ENTRIES: usize = 20_000;
 
 impl Done {
     fn answer(answer: Value) -> Self {
@@ -99,6 +103,8 @@ where
         let Some((change, moment)) = self.history.undo() else {
             return Ok(Done::answer(json!({ "undone": null })));
         };
+        // What a hand has taken since then, it would only pull back.
+        self.hands.retain(|held| held.since < moment.step);
         self.restore(&moment)?;
         Ok(Done::new_bodies(json!({ "undone": change })))
     }
@@ -106,7 +112,8 @@ where
     /// Notes the present before a change of it. Refused while the past is shown.
     fn before(&mut self, change: &'static str) -> Outcome<()> {
         if self.history.shown().is_some() {
-            return Err(Refusal::new("an earlier moment is shown; go on from it, or back to now, to change something"));
+            let why = "an earlier moment is shown; go on from it, or back to now, to change something";
+            return Err(Refusal::about("past", why));
         }
         let moment = self.moment();
         self.history.before(change, moment);
@@ -120,7 +127,7 @@ where
 
     fn handle_of(&self, id: u32) -> Outcome<BodyHandle> {
         let handle = self.entries.get(id as usize).and_then(|entry| entry.handle);
-        handle.ok_or_else(|| Refusal::new(format!("there is no body {id}; it may have been removed")))
+        handle.ok_or_else(|| Refusal::about("gone", format!("there is no body {id}; it may have been removed")))
     }
 
     fn cast(&self, origin: &[f64], direction: &[f64]) -> Outcome<Option<Hit<N>>> {
@@ -152,12 +159,13 @@ where
         let kind = self.world.body(handle).map(|body| body.kind());
         if kind != Some(BodyKind::Dynamic) {
             let entry = &self.entries[hit.body as usize];
-            let why = if entry.frozen { "it is frozen" } else { "it is not dynamic" };
-            return Err(Refusal::new(format!("{} cannot be moved: {why}", entry.name)));
+            let (code, why) =
+                if entry.frozen { ("frozen", "it is frozen") } else { ("immovable", "it is not dynamic") };
+            return Err(Refusal::about(code, format!("{} cannot be moved: {why}", entry.name)));
         }
         self.release(hand);
         self.before("grab")?;
-        self.hands.push(Hand::grab(&self.world, hand, (hit.body, handle), hit.point));
+        self.hands.push(Hand::grab(&self.world, hand, (hit.body, handle), hit.point, self.step_count()));
         Ok(Done::answer(hit.told()))
     }
 
@@ -188,8 +196,11 @@ where
         name: Option<String>,
         kind: Option<Kind>,
     ) -> Outcome<Done> {
-        if self.entries.len() >= MOST_BODIES {
-            return Err(Refusal::new(format!("the scene holds {MOST_BODIES} bodies; remove some or reset it")));
+        let alive = self.entries.iter().filter(|entry| entry.handle.is_some()).count();
+        if alive >= MOST_BODIES || self.entries.len() >= MOST_ENTRIES {
+            let why =
+                format!("the scene holds {alive} bodies, after {} in all; remove some or reset it", self.entries.len());
+            return Err(Refusal::about("full", why));
         }
         let mut body = Body::new(ShapeSpec::from_json(&shape.to_string())?).at(position);
         if let Some(velocity) = velocity {
@@ -215,9 +226,9 @@ where
         if !is_taken(wanted) {
             return wanted.to_owned();
         }
-        // One of so many numbers is free.
-        let mut numbered = (2..=self.entries.len() + 2).map(|number| format!("{wanted} {number}"));
-        numbered.find(|name| !is_taken(name)).unwrap_or_else(|| wanted.to_owned())
+        let number = |name: &str| name.strip_prefix(wanted)?.strip_prefix(' ')?.parse::<u32>().ok();
+        let last = self.entries.iter().filter_map(|entry| number(&entry.name)).max().unwrap_or(1);
+        format!("{wanted} {}", u64::from(last) + 1)
     }
 
     fn remove(&mut self, id: u32) -> Outcome<Done> {
@@ -225,7 +236,10 @@ where
         self.before("remove")?;
         self.hands.retain(|held| held.body != id);
         self.world.remove_body(handle)?;
-        self.entries[id as usize].handle = None;
+        let entry = &mut self.entries[id as usize];
+        entry.handle = None;
+        // What was drawn of it is large, and drawn anew if it comes back.
+        entry.drawing = Drawing::default();
         if self.selected == Some(id) {
             self.selected = None;
         }
@@ -236,7 +250,8 @@ where
         self.handle_of(id)?;
         let entry = &self.entries[id as usize];
         if entry.spec.kind != BodyKind::Dynamic {
-            return Err(Refusal::new(format!("{} does not move by itself, there is nothing to freeze", entry.name)));
+            let why = format!("{} does not move by itself, there is nothing to freeze", entry.name);
+            return Err(Refusal::about("immovable", why));
         }
         self.before("freeze")?;
         let mut moment = self.moment();
@@ -283,7 +298,7 @@ where
 
     fn export(&mut self, format: Format) -> Outcome<Done> {
         if self.view.drawn != 3 {
-            return Err(Refusal::new("a slice of two dimensions is flat; files of solids need three"));
+            return Err(Refusal::about("flat", "a slice of two dimensions is flat; files of solids need three"));
         }
         let moment = self.history.shown().cloned().unwrap_or_else(|| self.moment());
         let mut surface = Surface::new();
@@ -295,7 +310,7 @@ where
             }
         }
         if surface.is_empty() {
-            return Err(Refusal::new("the slice cuts nothing; move it to a body"));
+            return Err(Refusal::about("nothing", "the slice cuts nothing; move it to a body"));
         }
         let bytes = match format {
             Format::Stl => surface.to_stl(),

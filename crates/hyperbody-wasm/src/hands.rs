@@ -26,7 +26,9 @@ pub(crate) struct Hand<const N: usize> {
     pub(crate) hand: u32,
     /// Number of the body.
     pub(crate) body: u32,
-    handle: BodyHandle,
+    pub(crate) handle: BodyHandle,
+    /// Step of the scene at which it took hold.
+    pub(crate) since: u64,
     /// Where it holds the body, in the body's frame, m.
     anchor: Vector<N>,
     /// Where it draws that point to, in the world, m.
@@ -46,10 +48,16 @@ struct Grip<const N: usize> {
 }
 
 impl<const N: usize> Hand<N> {
-    /// Takes hold of a body at a point of the world.
-    pub(crate) fn grab(world: &World<N>, hand: u32, (body, handle): (u32, BodyHandle), point: Vector<N>) -> Self {
+    /// Takes hold of a body at a point of the world, at a step of the scene.
+    pub(crate) fn grab(
+        world: &World<N>,
+        hand: u32,
+        (body, handle): (u32, BodyHandle),
+        point: Vector<N>,
+        since: u64,
+    ) -> Self {
         let anchor = world.body(handle).map_or(Vector::ZERO, |body| body.pose().inverse_transform_point(point));
-        Self { hand, body, handle, anchor, target: point, grip: None }
+        Self { hand, body, handle, since, anchor, target: point, grip: None }
     }
 
     /// Says where the hand is now, and how it turns: by the change of its attitude, or by a further turn of the world.

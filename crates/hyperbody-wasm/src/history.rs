@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use hyperbody::math::{Bivector, Pose, Vector};
+use hyperbody::prelude::Energy;
 
 /// Where a body was and how it moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +13,10 @@ pub(crate) struct BodyMoment<const N: usize> {
     pub(crate) pose: Pose<N>,
     pub(crate) velocity: Vector<N>,
     pub(crate) angular_velocity: Bivector<N>,
+    /// For panels; restoring finds it anew from the velocities.
+    pub(crate) angular_momentum: Bivector<N>,
+    /// The same, J.
+    pub(crate) kinetic: f64,
     pub(crate) asleep: bool,
     pub(crate) frozen: bool,
 }
@@ -21,6 +26,7 @@ pub(crate) struct BodyMoment<const N: usize> {
 pub(crate) struct Moment<const N: usize> {
     /// Steps since the scene's start.
     pub(crate) step: u64,
+    pub(crate) energy: Energy,
     pub(crate) bodies: Vec<BodyMoment<N>>,
 }
 

@@ -9,7 +9,7 @@ use hyperbody::prelude::{BodyHandle, World};
 /// Least change of speed of the lighter body, m/s.
 const LEAST_SPEED: f64 = 0.15;
 
-/// Most impacts that a frame reports: the strongest.
+/// Most impacts that a frame reports: the strongest, and beside them those of what is held.
 const MOST: usize = 32;
 
 /// Impacts that wait for a frame to report them.
@@ -78,11 +78,15 @@ impl<const N: usize> Impacts<N> {
         self.before.extend(self.now.iter().map(|(bodies, impulse, _)| (*bodies, *impulse)));
     }
 
-    /// What has happened since the last call, strongest first.
-    pub(crate) fn take(&mut self) -> Vec<Impact<N>> {
+    /// What has happened since the last call, strongest first; none of what is held is left out.
+    pub(crate) fn take(&mut self, is_held: impl Fn(BodyHandle) -> bool) -> Vec<Impact<N>> {
         let mut found = std::mem::take(&mut self.found);
         found.sort_by(|a, b| b.impulse.total_cmp(&a.impulse).then(a.bodies.cmp(&b.bodies)));
-        found.truncate(MOST);
+        let mut kept = 0;
+        found.retain(|impact| {
+            kept += 1;
+            kept <= MOST || is_held(impact.bodies.0) || is_held(impact.bodies.1)
+        });
         found
     }
 }

@@ -177,6 +177,9 @@ pub enum Format {
 pub struct Refusal {
     /// What is wrong, and what would be right.
     pub message: String,
+    /// What it is about, where a page may have words of its own for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub code: Option<&'static str>,
     /// Of the scene's text, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
@@ -187,7 +190,12 @@ pub struct Refusal {
 
 impl Refusal {
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), line: None, column: None }
+        Self { message: message.into(), code: None, line: None, column: None }
+    }
+
+    /// One that a page may say in words of its own.
+    pub(crate) fn about(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code: Some(code), ..Self::new(message) }
     }
 }
 

@@ -152,6 +152,7 @@ impl Playground {
             let place = locate(text, error.place());
             Refusal {
                 message: error.to_string(),
+                code: None,
                 line: place.map(|(line, _)| line),
                 column: place.map(|(_, column)| column),
             }

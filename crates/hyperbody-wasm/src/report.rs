@@ -59,7 +59,7 @@ where
         let pose = self.view.pose;
         let axis = |k: usize| numbers(pose.rotation.matrix().column(k));
         let (seconds, back) = self.history.seconds(self.world.dt());
-        let energy = self.world.energy();
+        let energy = self.history.shown().map_or_else(|| self.world.energy(), |moment| moment.energy);
         let selected = self.selected.and_then(|id| self.selected(id));
         let impacts = self.impacts();
         let hands = self.hands.iter().map(|hand| {
@@ -83,7 +83,8 @@ where
     }
 
     fn impacts(&mut self) -> Vec<Value> {
-        let found = self.impacts.take();
+        let held = |handle| self.hands.iter().any(|hand| hand.handle == handle);
+        let found = self.impacts.take(held);
         let told = found.into_iter().filter_map(|impact| {
             let (body, other) = (self.id_of(impact.bodies.0)?, self.id_of(impact.bodies.1)?);
             let holds = self.hands.iter().filter(|hand| hand.body == body || hand.body == other);
@@ -109,7 +110,8 @@ where
         let centre = pose.transform_point(entry.centre_in_body);
         let rotation = pose.rotation.matrix();
         let planes = |bivector| serde_json::to_value(Planes::from_bivector(&bivector)).ok();
-        let kinetic = body.kinetic_energy();
+        let kinetic = past.map_or_else(|| body.kinetic_energy(), |state| state.kinetic);
+        let angular_momentum = past.map_or_else(|| body.angular_momentum(), |state| state.angular_momentum);
         let potential = -body.mass() * entry.spec.gravity_scale * self.world.gravity().dot(centre);
         Some(json!({
             "body": id,
@@ -121,7 +123,7 @@ where
             "rotation": (0..N).map(|row| numbers(rotation.row(row))).collect::<Vec<_>>(),
             "rotor": Rotor::from_rotation(&pose.rotation).coefficients(),
             "angularVelocity": planes(angular_velocity),
-            "angularMomentum": planes(body.angular_momentum()),
+            "angularMomentum": planes(angular_momentum),
             "principalMoments": numbers(body.principal_moments()),
             "momentum": numbers(velocity * body.mass()),
             "energy": { "kinetic": kinetic, "potential": potential, "total": kinetic + potential },

@@ -170,6 +170,7 @@ where
 
     fn filled(&self, mut moment: Moment<N>) -> Moment<N> {
         moment.step = self.step_count();
+        moment.energy = self.world.energy();
         for (id, entry) in self.entries.iter().enumerate() {
             let Some(body) = entry.handle.and_then(|handle| self.world.body(handle)) else { continue };
             moment.bodies.push(BodyMoment {
@@ -177,6 +178,8 @@ where
                 pose: body.pose(),
                 velocity: body.velocity(),
                 angular_velocity: body.angular_velocity(),
+                angular_momentum: body.angular_momentum(),
+                kinetic: body.kinetic_energy(),
                 asleep: body.is_sleeping(),
                 frozen: entry.frozen,
             });
@@ -185,9 +188,10 @@ where
     }
 
     /// Makes a moment the present: puts every body where it was. What has been removed since then comes back, what has been
-    /// added goes. Hands let go.
+    /// added goes. Hands let go of what is gone or does not move.
     pub(crate) fn restore(&mut self, moment: &Moment<N>) -> Result<(), SceneError> {
-        self.hands.clear();
+        let moves = |id: u32| moment.bodies.iter().any(|body| body.id == id && !body.frozen);
+        self.hands.retain(|hand| moves(hand.body));
         let now = self.entries.iter().enumerate().filter(|(_, entry)| entry.handle.is_some());
         let now = now.map(|(id, entry)| (id as u32, entry.frozen));
         if !now.eq(moment.bodies.iter().map(|body| (body.id, body.frozen))) {
@@ -233,6 +237,9 @@ where
         }
         for (&id, handle) in wanted.iter().zip(handles) {
             self.entries[id].handle = Some(handle);
+            for hand in self.hands.iter_mut().filter(|hand| hand.body as usize == id) {
+                hand.handle = handle;
+            }
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 // Hands as the page knows them: where each wants its body, in the slice's own coordinates. Kept in the slice, a held body
 // goes and turns with the slice when that moves.
 import type { EngineClient } from "../engine/client";
+import type { Held } from "../engine/protocol";
 import { wordsOf } from "../i18n";
 import { toFrame, toWorld, type SliceFrame } from "./slice-frame";
 
@@ -15,6 +16,8 @@ interface Hand {
   attitude: Matrix;
   /** Whether the attitude counts: a mouse that drags leaves the body free to swing. */
   turns: boolean;
+  /** The worker has taken hold of it: from then on its frames tell of the hand. */
+  confirmed: boolean;
 }
 
 /** Which hand is whose: one number for each thing that can hold. */
@@ -35,9 +38,10 @@ export class HandControl {
 
   /** Takes hold of a body at a world point. */
   grab(hand: number, body: number, point: readonly number[], turns: boolean): void {
-    this.hands.set(hand, { body, place: toFrame(this.frame(), point), attitude: identity(point.length), turns });
-    this.client.request("grab", { hand, body, point: [...point] }).catch((reason: unknown) => {
-      this.hands.delete(hand);
+    const taking: Hand = { body, place: toFrame(this.frame(), point), attitude: identity(point.length), turns, confirmed: false };
+    this.hands.set(hand, taking);
+    this.client.request("grab", { hand, body, point: [...point] }).then(() => (taking.confirmed = true)).catch((reason: unknown) => {
+      if (this.hands.get(hand) === taking) this.hands.delete(hand);
       this.refused(wordsOf(reason));
     });
   }
@@ -80,6 +84,13 @@ export class HandControl {
 
   releaseAll(): void {
     for (const hand of [...this.hands.keys()]) this.release(hand);
+  }
+
+  /** What the worker has let go of, such as a body that was frozen or taken away, is held no more. */
+  agree(held: readonly Held[]): void {
+    for (const [hand, { confirmed }] of this.hands) {
+      if (confirmed && !held.some((each) => each.hand === hand)) this.hands.delete(hand);
+    }
   }
 
   /** The scene is new: nothing is held any more. */

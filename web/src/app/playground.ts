@@ -423,6 +423,7 @@ export class Playground {
     this.fresh = true;
     if (this.unframed) this.frameFirst(frame);
     this.stage.setPickSurface(frame.surface);
+    this.hands.agree(frame.hands);
     for (const listener of this.onFrame) listener(frame);
   }
 

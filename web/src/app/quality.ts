@@ -1,5 +1,5 @@
 // Keeps the picture fluent on weak graphics: when pictures take too long for a while, they get coarser, then lose their
-// shadows; when there is room again, they get finer. Where the processor has to draw (no graphics card), it begins coarse.
+// shadows; when there is room again, they get finer, and a level that was too slow once is tried again later and later. Where the processor has to draw (no graphics card), it begins coarse.
 // In VR the headset decides.
 import type { Stage } from "../view/stage";
 
@@ -9,6 +9,9 @@ const ROOM = 1 / 55;
 /** So long pictures have to be too slow, or to leave room, before anything changes, s. */
 const PATIENCE_DOWN = 1.2;
 const PATIENCE_UP = 6;
+/** A level that was too slow is tried again after so many fluent seconds, and at most after so many. */
+const FIRST_WAIT = 15;
+const LONGEST_WAIT = 600;
 /** Pixels of the picture for a pixel of the page (CSS). */
 const RATIOS = [0.55, 0.7, 0.85, 1, 1.5, 2] as const;
 const PLAIN = 3;
@@ -18,14 +21,18 @@ export class QualityGuard {
   private slow = 0;
   private quick = 0;
   private size: [number, number] = [1, 1];
-  /** Once a finer level was too slow, it is not tried again. */
+  /** What this screen can show. */
+  private readonly finest: number;
+  /** The finest level that has not been too slow lately. */
   private ceiling: number;
+  /** Fluent pictures that it takes before a level that was too slow is tried again, s: longer each time that it fails. */
+  private wait = FIRST_WAIT;
   /** Fixed by the address: nothing is adapted. */
   private fixed: number | null = null;
 
   constructor(private readonly stage: Stage) {
     const ratio = Math.min(2, window.devicePixelRatio || 1);
-    this.ceiling = Math.max(PLAIN, RATIOS.findLastIndex((step) => step <= ratio + 0.01));
+    this.finest = this.ceiling = Math.max(PLAIN, RATIOS.findLastIndex((step) => step <= ratio + 0.01));
     this.level = stage.software ? 0 : this.ceiling;
   }
 
@@ -47,9 +54,11 @@ export class QualityGuard {
     if (this.slow > PATIENCE_DOWN && this.level > 0) {
       this.level -= 1;
       this.ceiling = this.level;
+      this.wait = Math.min(LONGEST_WAIT, 2 * this.wait);
       this.apply();
-    } else if (this.quick > PATIENCE_UP && this.level < this.ceiling) {
+    } else if (this.quick > (this.level < this.ceiling ? PATIENCE_UP : this.wait) && this.level < this.finest) {
       this.level += 1;
+      this.ceiling = Math.max(this.ceiling, this.level);
       this.apply();
     }
   }

@@ -15,7 +15,11 @@ export const en = {
   close: "Close",
   fullscreen: "Full screen",
   enterVr: "Enter VR",
-  vrMissing: "This browser has no VR headset that it can speak to (WebXR).",
+  vr: "Virtual reality",
+  vrMissing: "This browser does not speak to headsets (WebXR). Chrome, Edge and the browsers of headsets do.",
+  vrNoHeadset: "No headset is connected. Open this page in the headset's own browser, or connect one and start its software.",
+  vrInsecure: "Browsers give VR only to pages from this machine or by https. Open the page at localhost, or serve it by https.",
+  vrFailed: (why: string) => `VR could not start: ${why}`,
 
   pause: "Pause",
   play: "Run",
@@ -101,6 +105,11 @@ export const en = {
   line: (n: number) => `Line ${n}`,
   mine: "Yours",
   sceneSaved: (name: string) => `“${name}” is kept in this browser`,
+  keptHere: (address: string) => `Scenes that you keep in the editor stay in this browser, for the address ${address} alone. Another port or browser has its own: take them along as a file.`,
+  exportAll: "All as a file",
+  importAll: "Take in a file",
+  takenIn: (count: number) => (count === 1 ? "One scene was added to yours" : `${count} scenes were added to yours`),
+  noCollection: "This is no file of kept scenes, or the browser has no room for it.",
   storageClosed: "This browser does not let the page keep things.",
   linkTooLong: "This scene is too large for a link. Download it as a file instead.",
   tooLarge: (name: string, most: string) => `${name} is larger than ${most} MB; no scene is.`,
@@ -160,7 +169,7 @@ export const en = {
     galleryKey: "scenes", editorKey: "editor", helpKey: "this sheet", closeKey: "close",
     drag: "Drag a body: pull it with a spring; let go in motion to throw", wheelDrag: "Wheel while dragging: push it along w", rightDrag: "Right-drag a body: turn it (Shift: into w)",
     orbitMouse: "Drag the ground: orbit; right-drag: shift; wheel: zoom", wheelShift: "Shift + wheel: move the slice", touchOne: "One finger: drag a body, or orbit",
-    touchTwo: "Second finger while holding: up and down pushes along w", touchPinch: "Two fingers on the ground: zoom and shift", touchLong: "Long press or right click on a body: menu",
+    touchTwo: "Second finger while holding: up and down pushes along w, aside turns", touchPinch: "Two fingers on the ground: zoom and shift", touchLong: "Long press or right click on a body: menu",
     vr: "VR: grip or trigger grabs; left stick up and down moves along w, right stick turns the slice; press it to teleport; the panel is on your left wrist",
   },
 
@@ -178,7 +187,11 @@ export const en = {
     end: "Now it is yours: open Scenes, throw things, write your own.",
     skip: "End tour", nextStep: "Next",
   },
-  vrPanel: { pause: "Pause", reset: "Start again", home: "Home", ghosts: "Ghosts", wires: "Wires", next: "Next scene", undo: "Undo", gravity: "Gravity" },
+  vrPanel: {
+    pause: "Pause", slow: "Slow", back: "2 s back", undo: "Undo", reset: "Start again", add: "Add a body", goThere: "Go there", freeze: "Freeze", remove: "Delete", home: "Home",
+    snap: "Snap 90°", gravity: "Gravity", ghosts: "Ghosts", wires: "Wires", glass: "Glass", last: "Scene before", next: "Next scene", leave: "Leave VR",
+    hint: "Point and press with the right hand",
+  },
 };
 
 /** The words of a language. */

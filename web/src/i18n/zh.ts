@@ -16,7 +16,11 @@ export const zh: Words = {
   close: "关闭",
   fullscreen: "全屏",
   enterVr: "进入 VR",
-  vrMissing: "此浏览器找不到可用的 VR 头显（WebXR）。",
+  vr: "虚拟现实",
+  vrMissing: "此浏览器不支持头显（WebXR）。Chrome、Edge 和头显自带的浏览器支持。",
+  vrNoHeadset: "没有连接头显。请在头显自带的浏览器里打开本页，或连接头显并启动其软件。",
+  vrInsecure: "浏览器只允许本机页面或 https 页面使用 VR。请用 localhost 打开，或以 https 提供。",
+  vrFailed: (why) => `无法启动 VR：${why}`,
 
   pause: "暂停",
   play: "运行",
@@ -102,6 +106,11 @@ export const zh: Words = {
   line: (n) => `第 ${n} 行`,
   mine: "我的",
   sceneSaved: (name) => `“${name}”已存在此浏览器中`,
+  keptHere: (address) => `在编辑器里保存的场景只留在此浏览器、此地址（${address}）。换端口或浏览器就看不到了：请导出为文件带走。`,
+  exportAll: "全部导出为文件",
+  importAll: "导入文件",
+  takenIn: (count) => `已加入 ${count} 个场景`,
+  noCollection: "这不是保存的场景文件，或者浏览器没有空间了。",
   storageClosed: "此浏览器不允许页面保存内容。",
   linkTooLong: "这个场景太大，放不进链接；请下载为文件。",
   tooLarge: (name, most) => `${name} 超过 ${most} MB，不会是场景。`,
@@ -151,7 +160,7 @@ export const zh: Words = {
     orbitKey: "环绕", zoomKey: "缩放", modeKey: "实体、玻璃、隐藏", ghostKey: "虚影", wireKey: "线框", frameKey: "看全景", fullKey: "全屏", galleryKey: "场景", editorKey: "编辑器",
     helpKey: "本页", closeKey: "关闭",
     drag: "拖动物体：用弹簧拉它；运动中松手即抛出", wheelDrag: "拖动时滚轮：沿 w 推它", rightDrag: "右键拖物体：转动它（Shift：转入 w）", orbitMouse: "拖地面：环绕；右键拖：平移；滚轮：缩放",
-    wheelShift: "Shift + 滚轮：移动切片", touchOne: "单指：拖动物体或环绕", touchTwo: "按住物体时第二指上下滑：沿 w 推它", touchPinch: "双指在地面：缩放与平移", touchLong: "长按或右键点物体：菜单",
+    wheelShift: "Shift + 滚轮：移动切片", touchOne: "单指：拖动物体或环绕", touchTwo: "按住物体时第二指上下滑：沿 w 推它；左右滑：转动它", touchPinch: "双指在地面：缩放与平移", touchLong: "长按或右键点物体：菜单",
     vr: "VR：握键或扳机抓取；左摇杆上下沿 w 移动，右摇杆转动切片，按下摇杆瞬移；面板在左手腕上",
   },
 
@@ -169,5 +178,8 @@ export const zh: Words = {
     end: "现在交给你了：打开“场景”，扔东西，写自己的世界。",
     skip: "结束导览", nextStep: "下一步",
   },
-  vrPanel: { pause: "暂停", reset: "重来", home: "复位", ghosts: "虚影", wires: "线框", next: "下个场景", undo: "撤销", gravity: "重力" },
+  vrPanel: {
+    pause: "暂停", slow: "慢动作", back: "退 2 秒", undo: "撤销", reset: "重来", add: "添加物体", goThere: "前往", freeze: "固定", remove: "删除", home: "复位", snap: "对齐 90°", gravity: "重力",
+    ghosts: "虚影", wires: "线框", glass: "玻璃", last: "上个场景", next: "下个场景", leave: "退出 VR", hint: "用右手指向并按下",
+  },
 };

@@ -1,5 +1,5 @@
 // Mouse and touch on the view. One finger or the left button pulls a body or orbits; the right button turns a body or
-// shifts the view; the wheel or a second finger pushes what is held along w; a long press or right click asks for a menu.
+// shifts the view; the wheel or a second finger pushes what is held along w (moved aside, the finger turns it); a long press or right click asks for a menu.
 import { Plane, Vector3 } from "three";
 import { HAND } from "../app/hand-control";
 import { calm } from "../app/settings";
@@ -18,6 +18,8 @@ const PUSH_PER_WHEEL = 0.0012;
 const PUSH_PER_PIXEL = 0.008;
 const SLICE_PER_WHEEL = 0.0016;
 const ZOOM_PER_WHEEL = 0.0012;
+/** A second finger has to move so far before it is clear what it wants, CSS pixels. */
+const SENSE_PIXELS = 10;
 /** A release this long after the last movement throws nothing, ms. */
 const STALE_MS = 60;
 
@@ -38,9 +40,17 @@ interface Press {
   plane: Plane | null;
 }
 
+interface SecondFinger {
+  id: number;
+  start: [number, number];
+  last: [number, number];
+  /** What it does to a held body: by how it first moves, and that until it is lifted. */
+  sense: "push" | "turn" | null;
+}
+
 export class PointerInput {
   private main: Press | null = null;
-  private second: { id: number; last: [number, number] } | null = null;
+  private second: SecondFinger | null = null;
   private longPress = 0;
   /** Distance and middle of two fingers on the ground. */
   private pinch: { distance: number; middle: [number, number] } | null = null;
@@ -75,12 +85,11 @@ export class PointerInput {
     clearTimeout(this.longPress);
     const main = this.main;
     if (!main) return;
-    this.second = { id, last: at };
+    this.second = { id, start: at, last: at, sense: null };
     // On a body the second finger pushes along w, so the body has to be held by now.
-    if (main.picked && main.act !== "orbit" && main.act !== "pan") {
-      if (main.act !== "pull") this.begin(main, false);
-      return;
-    }
+    if (main.picked && main.act === "undecided") this.begin(main, false);
+    if (main.act === "pull") return;
+    // The ground, or something that nothing moves: two fingers move the camera.
     main.act = "pan";
     this.pinch = { distance: distance(main.last, at), middle: middle(main.last, at) };
   }
@@ -162,9 +171,18 @@ export class PointerInput {
   private secondMove(at: [number, number]): void {
     const { main, second } = this;
     if (!main || !second) return;
-    if (main.act === "pull") this.playground.hands.push(HAND.pointer, this.playground.drawnFrame().shown, (second.last[1] - at[1]) * PUSH_PER_PIXEL);
+    if (main.act === "pull") this.secondActs(second, at);
     second.last = at;
     if (this.pinch) this.pinchTo(main.last, at);
+  }
+
+  /** Beside a finger that holds something: up and down pushes it along w, aside turns it about the picture's upright axis. */
+  private secondActs(second: SecondFinger, at: [number, number]): void {
+    const [dx, dy] = [at[0] - second.start[0], at[1] - second.start[1]];
+    if (!second.sense && Math.hypot(dx, dy) > SENSE_PIXELS) second.sense = Math.abs(dy) >= Math.abs(dx) ? "push" : "turn";
+    const { hands } = this.playground;
+    if (second.sense === "push") hands.push(HAND.pointer, this.playground.drawnFrame().shown, (second.last[1] - at[1]) * PUSH_PER_PIXEL);
+    else if (second.sense === "turn") this.turn(at[0] - second.last[0], 0, false);
   }
 
   private pinchTo(a: [number, number], b: [number, number]): void {

@@ -30,7 +30,7 @@ class Tilt {
         if (!pull || pull.x === null || pull.y === null || pull.z === null) return;
         clearTimeout(giveUp);
         this.on.value = true;
-        playground.setGravityInView(downOf(pull.x, pull.y, pull.z), STRENGTH);
+        playground.setGravityInView(downOf(pull.x, pull.y, pull.z, asks(DeviceMotionEvent)), STRENGTH);
         resolve(true);
       };
       addEventListener("devicemotion", this.listener);
@@ -44,13 +44,16 @@ class Tilt {
   }
 }
 
-/** Down in the screen's axes (right, up, towards the viewer), unit length. */
-function downOf(x: number, y: number, z: number): [number, number, number] {
-  const length = Math.hypot(x, y, z) || 1;
+/**
+ * Down in the screen's axes (right, up, towards the viewer), unit length. By the standard a device at rest reports what holds
+ * it, which points up (+z on a table); Apple's report gravity itself, which points down. They are the ones that have to be asked.
+ */
+export function downOf(x: number, y: number, z: number, reportsGravity: boolean): [number, number, number] {
+  const length = (reportsGravity ? 1 : -1) * (Math.hypot(x, y, z) || 1);
   const angle = ((screen.orientation?.angle ?? 0) * Math.PI) / 180;
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
-  const [dx, dy] = [-x / length, -y / length];
-  return [c * dx - s * dy, s * dx + c * dy, -z / length];
+  const [dx, dy] = [x / length, y / length];
+  return [c * dx - s * dy, s * dx + c * dy, z / length];
 }
 
 export const tilt = new Tilt();

@@ -13,7 +13,15 @@ export interface KeptScene {
   text: string;
 }
 
+/** What `exportScenes` writes. */
+const FORMAT = "hyperbody-scenes";
+
 export const keptScenes = signal<KeptScene[]>(readKept());
+
+// Other tabs of this address keep scenes too.
+addEventListener("storage", (event) => {
+  if (event.key === KEY || event.key === null) keptScenes.value = readKept();
+});
 
 function readKept(): KeptScene[] {
   try {
@@ -28,13 +36,60 @@ function isKept(value: unknown): value is KeptScene {
   return typeof value === "object" && value !== null && "name" in value && "text" in value && typeof value.name === "string" && typeof value.text === "string";
 }
 
-/** Keeps a scene under its name, in place of an older one; false where the browser does not let it. */
-export function keepScene(scene: KeptScene): boolean {
-  return store([scene, ...keptScenes.value.filter(({ name }) => name !== scene.name)]);
+/**
+ * Keeps a scene under its own name; in place of the one called `replaces`, if there is one, and beside all others: a name that is
+ * taken gets a number. Returns the name, or null where the browser does not let it.
+ */
+export function keepScene(text: string, replaces: string | null): string | null {
+  // As it is now: another tab may have kept something since.
+  const others = readKept().filter(({ name }) => name !== replaces);
+  const name = freeName(nameIn(text), others);
+  return store([{ name, text }, ...others]) ? name : null;
 }
 
 export function forgetScene(name: string): void {
-  store(keptScenes.value.filter((scene) => scene.name !== name));
+  store(readKept().filter((scene) => scene.name !== name));
+}
+
+/** All that is kept, as one file for another browser, address or machine. */
+export function exportScenes(): string {
+  return JSON.stringify({ format: FORMAT, version: 1, scenes: readKept() }, null, 1);
+}
+
+/** Whether a text is a file of `exportScenes`. */
+export function isCollection(text: string): boolean {
+  return collectionIn(text) !== null;
+}
+
+/** Keeps the scenes of a file of `exportScenes`, but for those that are here already. Says how many; null: no such file, or no room. */
+export function importScenes(text: string): number | null {
+  const found = collectionIn(text);
+  if (!found) return null;
+  const kept = readKept();
+  let added = 0;
+  for (const scene of found) {
+    if (kept.some((each) => each.text === scene.text)) continue;
+    kept.push({ name: freeName(scene.name, kept), text: scene.text });
+    added += 1;
+  }
+  return store(kept) ? added : null;
+}
+
+function collectionIn(text: string): KeptScene[] | null {
+  try {
+    const file: unknown = JSON.parse(text);
+    if (typeof file !== "object" || file === null || !("format" in file) || file.format !== FORMAT || !("scenes" in file)) return null;
+    return Array.isArray(file.scenes) ? file.scenes.filter(isKept) : null;
+  } catch {
+    return null;
+  }
+}
+
+function freeName(wanted: string, others: readonly KeptScene[]): string {
+  const taken = new Set(others.map(({ name }) => name));
+  let name = wanted;
+  for (let number = 2; taken.has(name); number++) name = `${wanted} ${number}`;
+  return name;
 }
 
 function store(scenes: KeptScene[]): boolean {

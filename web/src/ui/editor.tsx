@@ -6,7 +6,7 @@ import { cameInLink } from "../app/address";
 import type { Playground } from "../app/playground";
 import { RefusedError } from "../engine/client";
 import { t } from "../i18n";
-import { keepScene, linkOf, nameIn } from "../scenes/library";
+import { importScenes, isCollection, keepScene, linkOf, nameIn } from "../scenes/library";
 import { usePlayground } from "./context";
 import { Dialog } from "./dialog";
 import { chooseText, download, fileName } from "./files";
@@ -14,10 +14,17 @@ import { IconButton } from "./icons";
 import { sheet } from "./state";
 
 const text = signal("");
+/** Under which name what is edited is kept already: it is kept there again, and everything else beside it. */
+const keptAs = signal<string | null>(null);
 const problem = signal<{ message: string; line: number | undefined } | null>(null);
 
-/** Runs a scene from outside; if it is broken, the editor opens on the line that is. */
-export async function runText(playground: Playground, source: string): Promise<void> {
+/** Runs a scene from outside; if it is broken, the editor opens on the line that is. A file of kept scenes is kept instead. */
+export async function runText(playground: Playground, source: string, name: string | null = null): Promise<void> {
+  if (isCollection(source)) {
+    takeIn(playground, source);
+    return;
+  }
+  if (source !== text.value || name !== null) keptAs.value = name;
   text.value = source;
   try {
     await playground.loadText(source);
@@ -34,9 +41,22 @@ export function offerLost(source: string): void {
   problem.value = { message: t().stopsEngine, line: undefined };
 }
 
+/** Keeps the scenes of a file that was exported here or elsewhere. */
+export function takeIn(playground: Playground, source: string): void {
+  const added = importScenes(source);
+  playground.say(added === null ? t().noCollection : t().takenIn(added));
+}
+
+function keep(playground: Playground): void {
+  const name = keepScene(text.value, keptAs.value);
+  if (name !== null) keptAs.value = name;
+  playground.say(name === null ? t().storageClosed : t().sceneSaved(name));
+}
+
 async function takeCurrent(playground: Playground): Promise<void> {
   const answer = await playground.client.request("sceneText", {});
   text.value = answer.text;
+  keptAs.value = null;
   problem.value = null;
 }
 
@@ -54,6 +74,11 @@ async function share(playground: Playground): Promise<void> {
   } catch {
     playground.say(t().linkReady); // The clipboard is closed to this page.
   }
+}
+
+function takeFile(found: string): void {
+  text.value = found;
+  keptAs.value = null;
 }
 
 export function Editor() {
@@ -95,11 +120,10 @@ export function Editor() {
       <footer>
         <IconButton icon="play" kind="primary" text label={t().run} onPress={run} />
         <IconButton icon="undo" text label={t().current} onPress={() => void takeCurrent(playground)} />
-        <IconButton icon="code" text label={t().open} onPress={() => void chooseText(".json,application/json").then((found) => found && (text.value = found)).catch((error: Error) => playground.say(error.message))} />
+        <IconButton icon="code" text label={t().open} onPress={() => void chooseText(".json,application/json").then((found) => found !== null && takeFile(found)).catch((error: Error) => playground.say(error.message))} />
         <IconButton icon="save" text label={t().download} onPress={() => download(fileName(nameIn(text.value), "json"), text.value, "application/json")} />
         <IconButton
-          icon="plus" text label={t().keep}
-          onPress={() => playground.say(keepScene({ name: nameIn(text.value), text: text.value }) ? t().sceneSaved(nameIn(text.value)) : t().storageClosed)}
+          icon="plus" text label={t().keep} onPress={() => keep(playground)}
         />
         <IconButton icon="share" text label={t().share} onPress={() => void share(playground)} />
       </footer>

@@ -2,9 +2,11 @@
 import type { BuiltIn } from "../engine/protocol";
 import { t } from "../i18n";
 import { galleryGroups, pictureOf } from "../scenes/gallery";
-import { forgetScene, keptScenes } from "../scenes/library";
+import { exportScenes, forgetScene, keptScenes } from "../scenes/library";
 import { usePlayground } from "./context";
 import { Dialog } from "./dialog";
+import { takeIn, runText } from "./editor";
+import { chooseText, download } from "./files";
 import { IconButton } from "./icons";
 import { sheet } from "./state";
 
@@ -30,6 +32,7 @@ export function Gallery() {
             <ul>{scenes.map((scene) => <Card key={scene.name} scene={scene} onOpen={() => open(scene.name)} />)}</ul>
           </section>
         ))}
+        {keptScenes.value.length === 0 && <section><h3>{t().mine}</h3><Taking /></section>}
       </div>
     </Dialog>
   );
@@ -61,7 +64,7 @@ function OwnScenes() {
               type="button" class="card"
               onClick={() => {
                 sheet.value = null;
-                playground.loadText(text).catch((error: Error) => playground.say(error.message));
+                void runText(playground, text, name);
               }}
             >
               <strong>{name}</strong>
@@ -70,6 +73,22 @@ function OwnScenes() {
           </li>
         ))}
       </ul>
+      <Taking />
     </section>
+  );
+}
+
+/** What is kept here is kept for this address alone: ways to take it along. */
+function Taking() {
+  const playground = usePlayground();
+  const take = () => void chooseText(".json,application/json").then((found) => found !== null && takeIn(playground, found)).catch((error: Error) => playground.say(error.message));
+  return (
+    <>
+      <p class="hint">{t().keptHere(location.host)}</p>
+      <div class="row">
+        {keptScenes.value.length > 0 && <IconButton icon="save" text label={t().exportAll} onPress={() => download("hyperbody-scenes.json", exportScenes(), "application/json")} />}
+        <IconButton icon="plus" text label={t().importAll} onPress={take} />
+      </div>
+    </>
   );
 }

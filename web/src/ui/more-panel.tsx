@@ -2,6 +2,7 @@
 import { toggleRecording, recording } from "../app/recorder";
 import { settings } from "../app/settings";
 import { tilt } from "../input/tilt";
+import { xr } from "../input/xr/session";
 import { language, t, wordsOf } from "../i18n";
 import { AXES, AXIS_COLOURS, short } from "./axes";
 import { usePlayground } from "./context";
@@ -30,6 +31,7 @@ export function MorePanel() {
         <IconButton icon="help" text label={t().help} onPress={() => (sheet.value = "help")} />
         <IconButton icon="full" text label={t().fullscreen} onPress={toggleFullscreen} />
       </section>
+      <VirtualReality />
       <Measured />
     </Dialog>
   );
@@ -146,6 +148,19 @@ function Files() {
       <IconButton icon="record" text label={recording.value ? t().stopRecording : t().record} pressed={recording.value} onPress={record} />
       <IconButton icon="save" text label={t().exportStl} onPress={() => void slice("stl")} />
       <IconButton icon="save" text label={t().exportGlb} onPress={() => void slice("glb")} />
+    </section>
+  );
+}
+
+/** The way into VR, or why there is none here. */
+function VirtualReality() {
+  const playground = usePlayground();
+  const missing = xr.missing();
+  if (missing === null && !xr.supported.value) return null;
+  return (
+    <section class="choices">
+      <h3>{t().vr}</h3>
+      {missing === null ? <IconButton icon="vr" text label={t().enterVr} onPress={() => void xr.enter(playground)} /> : <p class="hint" data-testid="vr-missing">{missing}</p>}
     </section>
   );
 }

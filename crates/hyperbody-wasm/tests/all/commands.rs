@@ -106,3 +106,35 @@ fn the_off_direction_is_right_handed_and_smooth() {
     );
     assert_eq!(numbers(&report(&mut four)["slice"]["off"][0]), [0.0, 0.0, -1.0, 0.0]);
 }
+
+#[test]
+fn refusals_that_a_page_has_words_for_carry_their_code() {
+    let mut playground = with("stack4d");
+    let code = |playground: &mut _, message| refusal(playground, message)["code"].as_str().map(str::to_owned);
+    let mut expect = |message, wanted: &str| assert_eq!(code(&mut playground, message).as_deref(), Some(wanted));
+    expect(json!({ "type": "remove", "body": 99 }), "gone");
+    expect(json!({ "type": "freeze", "body": 0, "on": true }), "immovable");
+    expect(json!({ "type": "grab", "hand": 0, "body": 0, "point": [0, 0, 0, 0] }), "immovable");
+    answer(&mut playground, json!({ "type": "freeze", "body": 1, "on": true }));
+    let grab = json!({ "type": "grab", "hand": 0, "body": 1, "point": [0, 0.5, 0, 0] });
+    assert_eq!(refusal(&mut playground, grab)["code"], "frozen");
+    ask(
+        &mut playground,
+        json!({ "type": "slice", "origin": [0, 0, 0, 50], "axes": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] }),
+    );
+    assert_eq!(refusal(&mut playground, json!({ "type": "export", "format": "stl" }))["code"], "nothing");
+    steps(&mut playground, 5);
+    ask(&mut playground, json!({ "type": "scrub", "secondsBack": 0.05 }));
+    assert_eq!(refusal(&mut playground, json!({ "type": "remove", "body": 1 }))["code"], "past");
+}
+
+#[test]
+fn bodies_that_were_removed_make_room_for_others() {
+    let mut playground = with_bodies(2, json!([{ "shape": { "ball": { "radius": 0.5 } } }]));
+    let spawn = json!({ "type": "spawn", "shape": { "ball": { "radius": 0.1 } }, "position": [9, 9] });
+    // More in all than may be there at once.
+    for _ in 0..4200 {
+        let body = answer(&mut playground, spawn.clone())["body"].clone();
+        answer(&mut playground, json!({ "type": "remove", "body": body }));
+    }
+}

@@ -1,5 +1,6 @@
 //! Hands: what is held follows, turns, and flies when let go.
 
+use hyperbody_wasm::Playground;
 use serde_json::json;
 
 use crate::{answer, ask, numbers, refusal, report, selected, steps, with, with_bodies};
@@ -86,4 +87,62 @@ fn what_a_hand_lets_fall_is_told_as_an_impact_once() {
     let mass = selected(&mut playground, 1)["mass"].as_f64().unwrap_or(0.0);
     let impulse = found[0]["impulse"].as_f64().unwrap_or(0.0);
     assert!((impulse / (3.0 * mass) - 1.0).abs() < 0.1, "{impulse} N·s stop {mass} kg at 3 m/s");
+}
+
+/// Three balls side by side, three metres apart, and where a hand takes hold of each.
+fn three_balls() -> (Playground, impl Fn(&mut Playground, u32)) {
+    let ball = |x: i32| json!({ "shape": { "ball": { "radius": 0.5 } }, "position": [x, 0, 0, 0] });
+    let playground = with_bodies(4, json!([ball(-3), ball(0), ball(3)]));
+    let grab = |playground: &mut Playground, body: u32| {
+        let x = 3 * (body as i32 - 1);
+        let message = json!({ "type": "grab", "hand": 10 + body, "body": body, "point": [x, 0, 0, 0] });
+        answer(playground, message);
+    };
+    (playground, grab)
+}
+
+fn held(playground: &mut Playground) -> Vec<u64> {
+    let told = report(playground)["hands"].clone();
+    told.as_array().into_iter().flatten().filter_map(|hand| hand["body"].as_u64()).collect()
+}
+
+#[test]
+fn freezing_and_undo_open_the_hands_that_they_concern_and_no_others() {
+    let (mut playground, grab) = three_balls();
+    grab(&mut playground, 0);
+    steps(&mut playground, 2);
+    grab(&mut playground, 1);
+    steps(&mut playground, 2);
+    answer(&mut playground, json!({ "type": "freeze", "body": 2, "on": true }));
+    assert_eq!(held(&mut playground), [0, 1], "a third body was frozen");
+    // They still pull: the world that freezing made is another one.
+    ask(&mut playground, json!({ "type": "moveHand", "hand": 10, "point": [-3, 1, 0, 0] }));
+    steps(&mut playground, 60);
+    assert!((numbers(&selected(&mut playground, 0)["position"])[1] - 1.0).abs() < 0.05);
+    assert_eq!(answer(&mut playground, json!({ "type": "undo" }))["undone"], "freeze");
+    assert_eq!(held(&mut playground), [0, 1]);
+    // Back to before the second grab: only the first hand held something then.
+    assert_eq!(answer(&mut playground, json!({ "type": "undo" }))["undone"], "grab");
+    assert_eq!(held(&mut playground), [0]);
+    answer(&mut playground, json!({ "type": "freeze", "body": 0, "on": true }));
+    assert_eq!(held(&mut playground), [0_u64; 0]);
+}
+
+#[test]
+fn what_is_held_tells_of_its_impacts_among_many_stronger_ones() {
+    let mut bodies = vec![
+        json!({ "kind": "static", "shape": { "half_space": { "normal": [0, 1, 0, 0], "offset": 0 } } }),
+        json!({ "shape": { "ball": { "radius": 0.5 } }, "position": [0, 0.52, 0, 0], "velocity": [0, -1.5, 0, 0] }),
+    ];
+    bodies.extend((1..=60).map(|k| {
+        let shape = json!({ "ball": { "radius": 0.5 } });
+        json!({ "shape": shape, "position": [2 * k, 0.52, 0, 0], "velocity": [0, -9, 0, 0], "mass": 50 })
+    }));
+    let mut playground = with_bodies(4, json!(bodies));
+    answer(&mut playground, json!({ "type": "grab", "hand": 7, "body": 1, "point": [0, 0.52, 0, 0] }));
+    ask(&mut playground, json!({ "type": "moveHand", "hand": 7, "point": [0, 0.3, 0, 0] }));
+    steps(&mut playground, 4);
+    let told = report(&mut playground)["impacts"].clone();
+    let of_held = told.as_array().into_iter().flatten().filter(|impact| impact["hands"] == json!([7])).count();
+    assert_eq!(of_held, 1, "{told}");
 }

@@ -71,3 +71,21 @@ fn joints_come_back_with_their_bodies() {
     assert_eq!(text(&mut playground).matches("\"ball\": {\"a\"").count(), joints);
     steps(&mut playground, 20);
 }
+
+#[test]
+fn panels_tell_of_the_moment_that_is_shown_alone() {
+    let mut playground = with("tumble4d");
+    let ids = 0..4;
+    let tell = |playground: &mut hyperbody_wasm::Playground| {
+        let bodies: Vec<_> = ids.clone().map(|id| selected(playground, id)).collect();
+        let told = report(playground);
+        (bodies, told["energy"].clone(), told["time"].clone())
+    };
+    ask(&mut playground, json!({ "type": "gravity", "vector": [0.0, -3.0, 0.0, 1.0] }));
+    steps(&mut playground, 20);
+    let then = tell(&mut playground);
+    steps(&mut playground, 60);
+    assert_ne!(tell(&mut playground).1, then.1, "the world falls");
+    ask(&mut playground, json!({ "type": "scrub", "secondsBack": 1.0 }));
+    assert_eq!(tell(&mut playground), then);
+}

@@ -25,6 +25,8 @@ interface Controller {
   hand: number;
   /** The grabbed point in the controller's own axes. */
   grip: Vector3 | null;
+  /** What was pressed to take it: only its release lets go. */
+  by: "select" | "squeeze" | null;
   stickWasPressed: boolean;
 }
 
@@ -38,13 +40,15 @@ export class Controllers {
     this.panel = new WristPanel(playground);
     this.controllers = [0, 1].map((index) => {
       const space = renderer.xr.getController(index);
-      const controller: Controller = { space, source: null, hand: index === 0 ? HAND.left : HAND.right, grip: null, stickWasPressed: false };
+      const controller: Controller = { space, source: null, hand: index === 0 ? HAND.left : HAND.right, grip: null, by: null, stickWasPressed: false };
       space.add(makePointer());
       rig.add(space);
       space.addEventListener("connected", ({ data }) => this.connect(controller, data));
       space.addEventListener("disconnected", () => this.disconnect(controller));
-      for (const press of ["selectstart", "squeezestart"] as const) space.addEventListener(press, () => this.press(controller));
-      for (const release of ["selectend", "squeezeend"] as const) space.addEventListener(release, () => this.release(controller));
+      for (const way of ["select", "squeeze"] as const) {
+        space.addEventListener(`${way}start`, () => this.press(controller, way));
+        space.addEventListener(`${way}end`, () => controller.by === way && this.release(controller));
+      }
       return controller;
     });
     playground.stage.scene.add(this.teleport.marker);
@@ -81,11 +85,13 @@ export class Controllers {
     controller.source = null;
   }
 
-  private press(controller: Controller): void {
+  private press(controller: Controller, way: "select" | "squeeze"): void {
+    if (controller.by) return;
     const ray = rayOf(controller.space);
     if (controller.source?.handedness !== "left" && this.panel.press(ray)) return;
     const picked = this.playground.stage.pick(ray);
     if (!picked || this.playground.body(picked.body)?.kind !== "dynamic") return;
+    controller.by = way;
     controller.grip = controller.space.worldToLocal(picked.point.clone());
     const frame = this.playground.drawnFrame();
     this.playground.select(picked.body);
@@ -94,7 +100,7 @@ export class Controllers {
   }
 
   private release(controller: Controller): void {
-    controller.grip = null;
+    controller.grip = controller.by = null;
     this.playground.hands.release(controller.hand);
   }
 

@@ -12,15 +12,19 @@ const MOST_SCALE = 8;
 const STAND_BACK = 1.7;
 
 class Xr {
-  readonly supported = signal(false);
+  /** Whether there is a headset to enter; null while the browser has not said. */
+  readonly supported = signal<boolean | null>(null);
   readonly presenting = signal(false);
   private controllers: Controllers | null = null;
 
   prepare(playground: Playground): void {
-    navigator.xr
-      ?.isSessionSupported("immersive-vr")
-      .then((supported) => (this.supported.value = supported))
-      .catch(() => undefined); // The browser forbids asking: there is no headset for this page.
+    const asked = navigator.xr?.isSessionSupported("immersive-vr") ?? Promise.resolve(false);
+    // A browser that forbids asking has no headset for this page.
+    asked.then((supported) => (this.supported.value = supported)).catch(() => (this.supported.value = false));
+    // Headsets that are plugged in later count too.
+    navigator.xr?.addEventListener("devicechange", () => {
+      void navigator.xr?.isSessionSupported("immersive-vr").then((supported) => (this.supported.value = supported), () => undefined);
+    });
     const manager = playground.stage.renderer.xr;
     manager.addEventListener("sessionstart", () => this.begin(playground));
     manager.addEventListener("sessionend", () => this.end(playground));
@@ -28,24 +32,35 @@ class Xr {
   }
 
   async enter(playground: Playground): Promise<void> {
+    let session: XRSession | undefined;
     try {
-      const session = await navigator.xr?.requestSession("immersive-vr", { optionalFeatures: ["local-floor", "bounded-floor"] });
+      session = await navigator.xr?.requestSession("immersive-vr", { optionalFeatures: ["local-floor", "bounded-floor"] });
       if (!session) throw new Error(t().vrMissing);
+      // Before the session runs: the controllers tell of themselves when it starts.
+      this.controllers ??= new Controllers(playground);
       playground.stage.renderer.xr.setReferenceSpaceType("local-floor");
       await playground.stage.renderer.xr.setSession(session);
     } catch (error) {
-      playground.say(error instanceof Error ? error.message : t().vrMissing);
+      // A session that nothing draws into would leave its wearer in the dark.
+      await session?.end().catch(() => undefined);
+      playground.say(t().vrFailed(error instanceof Error ? error.message : String(error)));
     }
+  }
+
+  /** Why there is no VR here, in words; null where there is. */
+  missing(): string | null {
+    if (this.supported.value !== false) return null;
+    if (!isSecureContext) return t().vrInsecure;
+    return navigator.xr ? t().vrNoHeadset : t().vrMissing;
   }
 
   private begin(playground: Playground): void {
     this.presenting.value = true;
-    this.controllers ??= new Controllers(playground);
     const { rig, sceneExtent, sceneMiddle } = playground.stage;
     rig.scale.setScalar(Math.min(MOST_SCALE, Math.max(1, sceneExtent / NATURAL_EXTENT)));
     rig.position.set(sceneMiddle.x, Math.min(0, sceneMiddle.y - sceneExtent), sceneMiddle.z + STAND_BACK * sceneExtent);
     if (sceneMiddle.y >= 0) rig.position.y = 0;
-    this.controllers.setVisible(true);
+    this.controllers?.setVisible(true);
   }
 
   private end(playground: Playground): void {

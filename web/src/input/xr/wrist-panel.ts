@@ -5,13 +5,17 @@ import type { Playground } from "../../app/playground";
 import { allScenes } from "../../scenes/gallery";
 import { settings } from "../../app/settings";
 import { t } from "../../i18n";
+import { shapesFor } from "../../scenes/shapes";
 import { toggleGravity } from "../../ui/more-panel";
+import { SLOW_FACTOR } from "../../ui/transport";
 
-const WIDTH = 0.24;
-const HEIGHT = 0.19;
-const PIXELS = { width: 512, height: 405 };
-const COLUMNS = 2;
-const HEADER = 85;
+const WIDTH = 0.3;
+const HEIGHT = 0.27;
+const PIXELS = { width: 720, height: 648 };
+const COLUMNS = 3;
+const HEADER = 126;
+/** A press on "back" goes so far into the past, s. */
+const BACK_SECONDS = 2;
 
 interface Button {
   label: () => string;
@@ -26,6 +30,7 @@ export class WristPanel {
   private readonly buttons: readonly Button[];
   private pointed = -1;
   private drawn = "";
+  private added = 0;
 
   constructor(private readonly playground: Playground) {
     Object.assign(this.canvas, PIXELS);
@@ -40,26 +45,54 @@ export class WristPanel {
 
   private makeButtons(): Button[] {
     const { playground } = this;
-    const paused = () => playground.paused.value;
+    const { slice } = playground;
+    const never = () => false;
+    const selected = (act: (body: number) => void) => () => playground.selected.value !== null && act(playground.selected.value);
+    const frozen = () => playground.readout.value?.selected?.frozen ?? false;
+    const words = () => t().vrPanel;
     return [
-      { label: () => t().vrPanel.pause, pressed: paused, act: () => playground.togglePaused() },
-      { label: () => t().vrPanel.reset, pressed: () => false, act: () => playground.reset() },
-      { label: () => t().vrPanel.home, pressed: () => false, act: () => playground.slice.home() },
-      { label: () => t().vrPanel.undo, pressed: () => false, act: () => void playground.undo() },
-      { label: () => t().vrPanel.ghosts, pressed: () => settings.ghosts.value, act: () => (settings.ghosts.value = !settings.ghosts.value) },
-      { label: () => t().vrPanel.wires, pressed: () => settings.wires.value, act: () => (settings.wires.value = !settings.wires.value) },
+      { label: () => words().pause, pressed: () => playground.paused.value, act: () => playground.togglePaused() },
+      { label: () => words().slow, pressed: () => playground.speed.value < 1, act: () => playground.setSpeed(playground.speed.value < 1 ? 1 : SLOW_FACTOR) },
+      { label: () => words().back, pressed: never, act: () => this.goBack() },
+      { label: () => words().undo, pressed: never, act: () => void playground.undo() },
+      { label: () => words().reset, pressed: never, act: () => playground.reset() },
+      { label: () => words().add, pressed: never, act: () => this.addNext() },
+      { label: () => words().goThere, pressed: never, act: selected((body) => playground.goTo(body)) },
+      { label: () => words().freeze, pressed: frozen, act: selected((body) => playground.freeze(body, !frozen())) },
+      { label: () => words().remove, pressed: never, act: selected((body) => playground.remove(body)) },
+      { label: () => words().home, pressed: never, act: () => slice.home() },
+      { label: () => words().snap, pressed: never, act: () => slice.snap() },
       {
-        label: () => t().vrPanel.gravity, pressed: () => playground.gravity.value.some((value) => value !== 0),
+        label: () => words().gravity, pressed: () => playground.gravity.value.some((value) => value !== 0),
         act: () => toggleGravity(playground, playground.gravity.value.every((value) => value === 0)),
       },
-      { label: () => t().vrPanel.next, pressed: () => false, act: () => this.nextScene() },
+      { label: () => words().ghosts, pressed: () => settings.ghosts.value, act: () => (settings.ghosts.value = !settings.ghosts.value) },
+      { label: () => words().wires, pressed: () => settings.wires.value, act: () => (settings.wires.value = !settings.wires.value) },
+      { label: () => words().glass, pressed: () => settings.surface.value === "glass", act: () => (settings.surface.value = settings.surface.value === "glass" ? "solid" : "glass") },
+      { label: () => words().last, pressed: never, act: () => this.openNeighbour(-1) },
+      { label: () => words().next, pressed: never, act: () => this.openNeighbour(1) },
+      { label: () => words().leave, pressed: never, act: () => void playground.stage.renderer.xr.getSession()?.end() },
     ];
   }
 
-  private nextScene(): void {
+  private openNeighbour(step: number): void {
     const scenes = allScenes(this.playground.builtins.value);
     const at = scenes.findIndex(({ name }) => name === this.playground.sceneName.value);
-    void this.playground.open(scenes[(at + 1) % scenes.length].name);
+    void this.playground.open(scenes[(Math.max(0, at) + step + scenes.length) % scenes.length].name);
+  }
+
+  /** Time stands two seconds earlier; "pause" goes on from there. */
+  private goBack(): void {
+    const history = this.playground.readout.value?.history;
+    if (history) this.playground.scrub(Math.min(history.seconds, history.secondsBack + BACK_SECONDS));
+  }
+
+  /** One shape of the palette after the other. */
+  private addNext(): void {
+    const shapes = shapesFor(this.playground.scene.value?.dimension ?? 4);
+    const { name, shape } = shapes[this.added % shapes.length];
+    this.added += 1;
+    void this.playground.spawn(shape, name);
   }
 
   /** Lights the button that is pointed at, and draws anew where anything changed. */
@@ -67,10 +100,18 @@ export class WristPanel {
     this.pointed = -1;
     for (const ray of rays) this.pointed = Math.max(this.pointed, this.buttonAt(ray));
     const title = this.playground.scene.value?.title ?? "Hyperbody";
-    const state = [title, this.pointed, this.playground.slice.offset().toFixed(1), ...this.buttons.map(({ label, pressed }) => label() + pressed())].join("|");
+    const told = this.told();
+    const state = [title, told, this.pointed, this.playground.slice.offset().toFixed(1), ...this.buttons.map(({ label, pressed }) => label() + pressed())].join("|");
     if (state === this.drawn) return;
     this.drawn = state;
-    this.draw(title);
+    this.draw(title, told);
+  }
+
+  /** The body that was touched last, and how fast it goes. */
+  private told(): string {
+    const body = this.playground.readout.value?.selected;
+    if (!body) return t().vrPanel.hint;
+    return `${body.name} · ${Math.hypot(...body.velocity).toFixed(1)} m/s`;
   }
 
   /** Presses what the ray meets; false if it misses the panel. */
@@ -91,7 +132,7 @@ export class WristPanel {
     return Math.min(this.buttons.length - 1, Math.floor(y / height) * COLUMNS + Math.floor((x / PIXELS.width) * COLUMNS));
   }
 
-  private draw(title: string): void {
+  private draw(title: string, told: string): void {
     const context = this.canvas.getContext("2d");
     if (!context) return;
     const { width, height } = PIXELS;
@@ -103,9 +144,11 @@ export class WristPanel {
     context.fillStyle = "#fff";
     context.textBaseline = "middle";
     context.font = "600 30px system-ui, sans-serif";
-    context.fillText(title, 28, HEADER / 2 + 2, width - 190);
+    context.fillText(title, 28, 44, width - 190);
     context.font = "26px system-ui, sans-serif";
-    if (this.playground.slice.offCount > 0) context.fillText(`w ${this.playground.slice.offset().toFixed(1)}`, width - 130, HEADER / 2 + 2);
+    if (this.playground.slice.offCount > 0) context.fillText(`w ${this.playground.slice.offset().toFixed(1)}`, width - 130, 44);
+    context.fillStyle = "#b9c6e8";
+    context.fillText(told, 28, 92, width - 56);
     const buttonHeight = (height - HEADER) / Math.ceil(this.buttons.length / COLUMNS);
     this.buttons.forEach(({ label, pressed }, i) => {
       const [x, y] = [((i % COLUMNS) * width) / COLUMNS + 10, HEADER + Math.floor(i / COLUMNS) * buttonHeight];

@@ -1,0 +1,91 @@
+// What needs no picture: parts of the page, read through its builder and run under Node.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { createServer } from "vite";
+
+let vite;
+before(async () => {
+  // What the modules find of a browser when they are read.
+  Object.assign(globalThis, {
+    window: { devicePixelRatio: 2 },
+    document: { documentElement: { classList: { toggle: () => undefined } } },
+    matchMedia: () => ({ matches: false, addEventListener: () => undefined }),
+    localStorage: undefined,
+    addEventListener: () => undefined,
+    screen: {},
+  });
+  vite = await createServer({ root: fileURLToPath(new URL("..", import.meta.url)), server: { middlewareMode: true, ws: false, watch: null }, appType: "custom", logLevel: "error", optimizeDeps: { noDiscovery: true } });
+});
+after(() => vite?.close());
+
+test("the picture gets coarser when it is slow, finer when there is room, and tries again later and later", async () => {
+  const { QualityGuard } = await vite.ssrLoadModule("/src/app/quality.ts");
+  let ratio = 0;
+  const stage = { software: false, renderer: { xr: { isPresenting: false } }, setShadows: () => undefined, resize: (_w, _h, value) => (ratio = value) };
+  const guard = new QualityGuard(stage);
+  guard.resize(100, 100);
+  const finest = ratio;
+  const pass = (seconds, frame) => {
+    for (let spent = 0; spent < seconds; spent += frame) guard.pictureTook(frame);
+  };
+  // A machine that is too slow for the finest alone.
+  const live = (seconds) => {
+    let changes = 0;
+    for (let spent = 0; spent < seconds; ) {
+      const frame = ratio === finest ? 1 / 20 : 1 / 60;
+      const before = ratio;
+      guard.pictureTook(frame);
+      spent += frame;
+      if (ratio !== before) changes += 1;
+    }
+    return changes;
+  };
+  pass(2, 1 / 20);
+  assert.ok(ratio < finest, "too slow, and as fine as before");
+  const first = live(300);
+  const second = live(300);
+  assert.ok(first >= 2, "a machine that was slow once stays coarse for ever");
+  assert.ok(second <= first / 2, `it goes up and down as often as before: ${first}, then ${second} times`);
+  pass(700, 1 / 60);
+  assert.equal(ratio, finest, "with room for minutes it is not as fine as at first");
+});
+
+test("after stops of the engine: again, then another scene, then no more", async () => {
+  const { Recovery } = await vite.ssrLoadModule("/src/app/recovery.ts");
+  const recovery = new Recovery();
+  assert.equal(recovery.after(0, "a"), "again");
+  assert.equal(recovery.after(1000, "a"), "another");
+  assert.equal(recovery.after(2000, "b"), "again");
+  assert.equal(recovery.after(3000, "c"), "stop");
+  assert.equal(recovery.after(90_000, "a"), "again", "an hour later it is forgotten");
+});
+
+test("down is down, whichever way a device counts", async () => {
+  const { downOf } = await vite.ssrLoadModule("/src/input/tilt.ts");
+  const same = (a, b) => a.forEach((value, axis) => assert.ok(Math.abs(value - b[axis]) < 1e-12, `${a} and ${b}`));
+  // On a table, face up: the standard says +9.81 along z, Apple's devices −9.81.
+  same(downOf(0, 0, 9.81, false), [0, 0, -1]);
+  same(downOf(0, 0, -9.81, true), [0, 0, -1]);
+  // Upright in the hand.
+  same(downOf(0, 9.81, 0, false), [0, -1, 0]);
+  same(downOf(0, -9.81, 0, true), [0, -1, 0]);
+});
+
+test("too slow a machine loses time, and says how much", async () => {
+  const { Pacer } = await vite.ssrLoadModule("/src/engine/pacer.ts");
+  const pacer = new Pacer();
+  let now = 0;
+  const clock = () => now;
+  let steps = 0;
+  for (let k = 0; k < 400; k++) {
+    // A step takes twice as long as it simulates.
+    pacer.run(now, 0.01, 30, clock, () => {
+      now += 20;
+      steps += 1;
+    });
+    now += 1;
+  }
+  assert.ok(Math.abs(steps * 0.01 - 0.5 * (now / 1000)) < 0.05 * (now / 1000), `${steps} steps in ${now} ms`);
+  assert.ok(Math.abs(pacer.slowdown - 0.5) < 0.1, `it says ${pacer.slowdown}`);
+});
