@@ -14,7 +14,7 @@
 //! All take world poses and answer in the world. Shapes are closed solids: touching is having a point in common, to the
 //! rounding of the search ([`crate::limits::TOUCHING`] of the size of both shapes).
 //!
-//! Coordinates of poses and points go up to ±[`FARTHEST`](crate::limits::FARTHEST) (1e30 m); what is beyond, or not
+//! Coordinates of poses and points go up to ±[`FARTHEST`] (1e30 m); what is beyond, or not
 //! finite, has nothing in common with anything. Nothing panics.
 
 mod cast;
