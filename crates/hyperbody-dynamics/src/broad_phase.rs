@@ -114,7 +114,7 @@ impl<const N: usize> World<N> {
                 }
             }
         }
-        found.sort_unstable();
+        found.sort_unstable_by_key(|&(a, b)| u64::from(a) << 32 | u64::from(b));
         found.dedup();
         for &(a, b) in &found {
             if !self.pairs.contains(a, b)

@@ -8,6 +8,7 @@
 use hyperbody_math::{Bivector, Vector};
 
 use crate::body::Body;
+use crate::counting::Counting;
 use crate::{BodyHandle, JointHandle, World};
 
 /// What a touch did in the last step.
@@ -81,6 +82,9 @@ pub struct Events<const N: usize> {
     touching: Vec<(BodyHandle, BodyHandle)>,
     /// Touches of the step, one for each pair of pieces: buffer.
     found: Vec<ContactEvent<N>>,
+    /// The touches found, by their bodies.
+    order: Vec<u32>,
+    counting: Counting,
     /// The next `touching`: buffer.
     next: Vec<(BodyHandle, BodyHandle)>,
     /// What is in which sensor, by sensor and body ascending.
@@ -99,6 +103,8 @@ impl<const N: usize> Events<N> {
             broken: Vec::new(),
             touching: Vec::new(),
             found: Vec::new(),
+            order: Vec::new(),
+            counting: Counting::new(),
             next: Vec::new(),
             inside: Vec::new(),
             noticed: Vec::new(),
@@ -229,8 +235,14 @@ impl<const N: usize> World<N> {
                 normal: if swap { -contact.manifold.normal } else { contact.manifold.normal },
             });
         }
-        // Stable: pieces of the same two bodies keep the order of their pairs.
-        found.sort_by_key(|touch| touch.bodies);
+        // Pieces of the same two bodies keep the order of their pairs. What is sorted is small beside the events.
+        let Events { order, counting, .. } = &mut self.events;
+        order.clear();
+        #[expect(clippy::cast_possible_truncation, reason = "fewer pairs than fit into memory")]
+        order.extend(0..found.len() as u32);
+        let slots = self.bodies.slot_count();
+        counting.sort(order, slots, |touch| found[touch as usize].bodies.1.index as usize);
+        counting.sort(order, slots, |touch| found[touch as usize].bodies.0.index as usize);
         self.events.found = found;
     }
 
@@ -262,7 +274,7 @@ impl<const N: usize> World<N> {
 
     /// Touches of this step beside those of the last one.
     fn compare_touches(&mut self) {
-        let Events { contacts, touching, found, next, .. } = &mut self.events;
+        let Events { contacts, touching, found, order, next, .. } = &mut self.events;
         let bodies = &self.bodies;
         contacts.clear();
         next.clear();
@@ -276,13 +288,15 @@ impl<const N: usize> World<N> {
                 contacts.push(ContactEvent { bodies: pair, phase: ContactPhase::End, impulse: 0.0, point, normal });
             }
         };
-        for touches in found.chunk_by(|a, b| a.bodies == b.bodies) {
-            let pair = touches[0].bodies;
+        for touches in order.chunk_by(|&a, &b| found[a as usize].bodies == found[b as usize].bodies) {
+            let mut touches = touches.iter().map(|&touch| &found[touch as usize]);
+            let Some(first) = touches.next() else { continue };
+            let pair = first.bodies;
             while let Some(ended) = before.next_if(|&other| other < pair) {
                 end(ended, next, contacts);
             }
             let stays = before.next_if_eq(&pair).is_some();
-            let mut event = merged(touches);
+            let mut event = merged(first, touches);
             if stays {
                 event.phase = ContactPhase::Stay;
             }
@@ -297,11 +311,16 @@ impl<const N: usize> World<N> {
 }
 
 /// The touches of the pieces of two bodies as one.
-fn merged<const N: usize>(touches: &[ContactEvent<N>]) -> ContactEvent<N> {
-    let mut event = touches[0];
+fn merged<'a, const N: usize>(
+    first: &ContactEvent<N>,
+    others: impl Iterator<Item = &'a ContactEvent<N>>,
+) -> ContactEvent<N> {
+    let mut event = *first;
     let mut most = event.impulse;
     let mut weighted = event.point * event.impulse;
-    for touch in &touches[1..] {
+    let mut alone = true;
+    for touch in others {
+        alone = false;
         event.impulse += touch.impulse;
         weighted += touch.point * touch.impulse;
         if touch.impulse > most {
@@ -309,7 +328,7 @@ fn merged<const N: usize>(touches: &[ContactEvent<N>]) -> ContactEvent<N> {
             event.normal = touch.normal;
         }
     }
-    if event.impulse > 0.0 {
+    if !alone && event.impulse > 0.0 {
         event.point = weighted * (1.0 / event.impulse);
     }
     event

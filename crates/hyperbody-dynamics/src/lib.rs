@@ -24,9 +24,11 @@
 //!
 //! Data goes one way through the step; `step.rs` is its list of stages.
 
+mod balls;
 pub mod body;
 mod broad_phase;
 mod continuous;
+mod counting;
 pub mod error;
 pub mod events;
 pub mod filter;

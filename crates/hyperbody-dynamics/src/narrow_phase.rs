@@ -140,7 +140,7 @@ pub(crate) struct Update<'a, const N: usize> {
     /// m.
     recycle_distance: f64,
     /// s.
-    dt: f64,
+    pub(crate) dt: f64,
     pub(crate) hook: Option<&'a Hook<N>>,
 }
 
@@ -169,6 +169,7 @@ impl<const N: usize> Update<'_, N> {
             self.carry_along(pair);
         }
         if pair.points > 0
+            && !pair.round
             && a.speed + b.speed > SLIDES
             && let (Some(body_a), Some(body_b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b))
             && is_suspect(pair, body_a, body_b)
@@ -191,8 +192,11 @@ impl<const N: usize> Update<'_, N> {
 
     fn look_closer(&self, pair: &mut Pair<N>, way: f64, scratch: &mut Scratch<N>) {
         let Some([(a, body_a), (b, body_b)]) = self.sides(pair) else { return };
-        let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
         let closing = self.closing_distance(body_a, body_b);
+        if self.balls(pair, (a, body_a), (b, body_b), way, closing) {
+            return;
+        }
+        let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
         if let Some(kept) = &pair.search.a_from_b
             && closing + self.recycle_distance <= self.margin
         {
@@ -332,7 +336,7 @@ impl<const N: usize> Update<'_, N> {
 
 /// How far ahead of fast bodies contacts are made, in parts of what they close in the step: a body that lands on one corner
 /// throws the others down faster than it came.
-const AFTER_IMPACT: f64 = 2.0;
+pub(crate) const AFTER_IMPACT: f64 = 2.0;
 
 /// Turns of the advancement of fast bodies. Each covers at least half of the distance that is left at the fastest approach.
 const ADVANCES: u32 = 12;
@@ -372,7 +376,7 @@ pub(crate) fn moved<const N: usize>(then: &Pose<N>, now: &Pose<N>, reach: f64) -
 }
 
 /// What two colliders remember that touch for the first time.
-fn meet_first<const N: usize>(
+pub(crate) fn meet_first<const N: usize>(
     (a, body_a): (&Collider<N>, &Body<N>),
     (b, body_b): (&Collider<N>, &Body<N>),
 ) -> Contact<N> {

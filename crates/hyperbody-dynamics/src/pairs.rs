@@ -86,6 +86,8 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) role: PairRole,
     /// Of sensors: whether the two overlap.
     pub(crate) overlaps: bool,
+    /// Whether both are balls, which know no seams.
+    pub(crate) round: bool,
     /// Whether its contact approaches, as ghosts at seams do.
     pub(crate) suspect: bool,
     /// Of one-way bodies.
@@ -153,6 +155,7 @@ impl<const N: usize> Pair<N> {
             resists: surface.resists,
             role,
             overlaps: false,
+            round: false,
             suspect: false,
             passage: Passage::Apart,
             search: Box::new(Search { a_from_b: None, cache: PairCache::default() }),

@@ -111,7 +111,7 @@ impl<const N: usize> World<N> {
                 }
             }
         }
-        seams.contacts.sort_unstable();
+        seams.contacts.sort_unstable_by_key(|&(body, slot)| u64::from(body) << 32 | u64::from(slot));
     }
 
     fn find_ghosts(&self, seams: &mut Seams<N>) {

@@ -91,6 +91,9 @@ fn limit<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) -> bool {
 
 /// A vector of at most the given length in the same direction. Does not overflow on the way.
 pub(crate) fn shortened<const N: usize>(v: Vector<N>, longest: f64) -> Vector<N> {
+    if v.norm_sq() < longest * longest {
+        return v;
+    }
     let largest = v.max_abs();
     if !(largest > 0.0 && largest.is_finite()) {
         return v;
@@ -101,6 +104,9 @@ pub(crate) fn shortened<const N: usize>(v: Vector<N>, longest: f64) -> Vector<N>
 }
 
 fn shortened_bivector<const N: usize>(b: &Bivector<N>, longest: f64) -> Bivector<N> {
+    if b.norm_sq() < longest * longest {
+        return *b;
+    }
     let largest = b.planes().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     if !(largest > 0.0 && largest.is_finite()) {
         return *b;

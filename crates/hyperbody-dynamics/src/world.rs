@@ -5,6 +5,7 @@ use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Pose, Vector};
 
+use crate::balls::ball;
 use crate::body::Body;
 use crate::continuous::{Continuous, PieceCore};
 use crate::events::Events;
@@ -222,6 +223,8 @@ impl<const N: usize> World<N> {
         }
         let pieces = body.shape.pieces();
         body.radius = reach(&pieces, body.centre_in_body);
+        body.is_ball = matches!(pieces.as_slice(), [(pose, piece)]
+            if ball(piece).is_some() && pose.translation == body.centre_in_body);
         let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for bodies");
         let handle = self.bodies.insert(body).map_err(|_| full())?;
         for (body_from_collider, piece) in pieces {

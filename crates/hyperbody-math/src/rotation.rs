@@ -145,9 +145,14 @@ impl<const N: usize> Rotation<N> {
             halvings += 1;
         }
         let velocity = velocity * scale;
-        // 0.5¹⁵/15! < 2⁻⁵³: fourteen terms, by Horner's scheme.
+        // As many terms as count beside the first order, by Horner's scheme: fourteen at most, for 0.5¹⁴/15! < 2⁻⁵³.
+        let (mut terms, mut next) = (1_u32, 0.5 * bound * scale);
+        while next > f64::EPSILON / 4.0 && terms < 14 {
+            terms += 1;
+            next *= bound * scale / f64::from(terms + 1);
+        }
         let mut sum = Matrix::IDENTITY;
-        for term in (1..=14).rev() {
+        for term in (1..=terms).rev() {
             sum = Matrix::IDENTITY + (velocity * sum) * (1.0 / f64::from(term));
         }
         for _ in 0..halvings {

@@ -94,6 +94,8 @@ pub(crate) struct Body<const N: usize> {
     pub(crate) centre_in_body: Vector<N>,
     /// Largest distance of a point of the body from its centre of mass, m: turns spin into speed.
     pub(crate) radius: f64,
+    /// Whether it is one ball about its centre of mass, whose surface stays as it is when it turns.
+    pub(crate) is_ball: bool,
     /// Least radius of a core of its pieces, m: going farther in a step, it might pass through something.
     pub(crate) core_radius: f64,
 
@@ -190,6 +192,7 @@ impl<const N: usize> Body<N> {
             inertia,
             centre_in_body,
             radius: 0.0,
+            is_ball: false,
             core_radius: f64::INFINITY,
             centre: def.position + def.rotation.rotate(centre_in_body),
             rotation: def.rotation,

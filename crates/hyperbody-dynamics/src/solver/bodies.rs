@@ -45,6 +45,8 @@ pub(crate) struct SolverBody<const N: usize> {
     pub(crate) inverse_sqrt_moments: [f64; MAX_PLANES],
     /// What the moments have beside those of the body, kg·m²; see `joints/tension.rs`.
     pub(crate) added_moment: f64,
+    /// See [`Body::is_ball`].
+    pub(crate) is_ball: bool,
     pub(crate) centre: Vector<N>,
     /// Base motion: velocity at time t of the step = velocity + t · acceleration.
     pub(crate) velocity: Vector<N>,
@@ -65,6 +67,7 @@ impl<const N: usize> SolverBody<N> {
             frame: None,
             inverse_sqrt_moments: [1.0; MAX_PLANES],
             added_moment: 0.0,
+            is_ball: false,
             centre: Vector::ZERO,
             velocity: Vector::ZERO,
             angular_velocity: Bivector::ZERO,
@@ -82,6 +85,7 @@ impl<const N: usize> SolverBody<N> {
             frame: None,
             inverse_sqrt_moments: [0.0; MAX_PLANES],
             added_moment: 0.0,
+            is_ball: false,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
@@ -104,6 +108,7 @@ impl<const N: usize> SolverBody<N> {
             frame,
             inverse_sqrt_moments,
             added_moment,
+            is_ball: body.is_ball,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,

@@ -5,7 +5,10 @@
 //! immovable come in colours of their own, after the others: the last word is theirs, and nothing sinks into the ground
 //! (after E. Catto, Box2D v3, 2024). What 64 colours don't hold is solved one by one.
 
+use hyperbody_collision::MAX_POINTS;
+
 use super::lanes::WIDTH;
+use crate::counting::Counting;
 
 /// A contact to be solved: slots and rows of its bodies.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +39,7 @@ pub(crate) struct Colours {
     used: Vec<u64>,
     colour_of: Vec<u8>,
     order: Vec<u32>,
+    counting: Counting,
     /// Groups in the order of solving.
     pub(crate) groups: Vec<Group>,
 }
@@ -49,12 +53,15 @@ impl Colours {
         self.colour_of.resize(contacts.len(), OVERFLOW);
         let first_static = self.colour(contacts, &movable, true, 0);
         self.colour(contacts, &movable, false, first_static);
+        // Contacts with as many points stand together, most first, so that few lanes idle; ties keep their order.
+        let colour_of = &self.colour_of;
         self.order.clear();
         #[expect(clippy::cast_possible_truncation, reason = "fewer contacts than fit into memory")]
         self.order.extend(0..contacts.len() as u32);
-        // Contacts with as many points stand together, so that few lanes idle; ties keep their order.
-        let colour_of = &self.colour_of;
-        self.order.sort_unstable_by_key(|&c| (colour_of[c as usize], u8::MAX - contacts[c as usize].points, c));
+        self.counting.sort(&mut self.order, (COLOURS + 1) * (MAX_POINTS + 1), |contact| {
+            let colour = usize::from(colour_of[contact as usize]).min(COLOURS);
+            colour * (MAX_POINTS + 1) + MAX_POINTS - usize::from(contacts[contact as usize].points)
+        });
         self.pack();
     }
 

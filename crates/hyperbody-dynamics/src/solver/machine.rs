@@ -8,6 +8,8 @@ use super::lanes::{Lanes, Real, WIDTH};
 pub(crate) trait Machine: Copy {
     /// [`WIDTH`] numbers in registers.
     type Vector: Copy;
+    /// The same in double precision.
+    type Doubles: Copy;
 
     fn load(self, lanes: Lanes) -> Self::Vector;
     fn store(self, vector: Self::Vector) -> Lanes;
@@ -28,6 +30,18 @@ pub(crate) trait Machine: Copy {
     fn all_positive(self, a: Self::Vector) -> bool;
     /// Lane i of vector j becomes lane j of vector i.
     fn transpose(self, rows: [Self::Vector; WIDTH]) -> [Self::Vector; WIDTH];
+
+    fn widen(self, a: Self::Vector) -> Self::Doubles;
+    /// Rounded to the nearest.
+    fn narrow(self, a: Self::Doubles) -> Self::Vector;
+    fn add_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
+    fn sub_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
+    fn mul_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
+    fn sqrt_doubles(self, a: Self::Doubles) -> Self::Doubles;
+    /// a where a > b, else b.
+    fn max_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
+    /// 1/a where a > 0, else 0.
+    fn inverse_or_zero(self, a: Self::Doubles) -> Self::Doubles;
 }
 
 /// Work that is compiled anew for every kind. `run` and all that it calls must be `#[inline(always)]`: a function of its
@@ -75,8 +89,18 @@ fn zip(a: Lanes, b: Lanes, f: impl Fn(Real, Real) -> Real) -> Lanes {
     Lanes(result)
 }
 
+#[inline(always)]
+fn zip_doubles(a: [f64; WIDTH], b: [f64; WIDTH], f: impl Fn(f64, f64) -> f64) -> [f64; WIDTH] {
+    let mut result = [0.0; WIDTH];
+    for lane in 0..WIDTH {
+        result[lane] = f(a[lane], b[lane]);
+    }
+    result
+}
+
 impl Machine for Plain {
     type Vector = Lanes;
+    type Doubles = [f64; WIDTH];
 
     #[inline(always)]
     fn load(self, lanes: Lanes) -> Lanes {
@@ -157,11 +181,51 @@ impl Machine for Plain {
         }
         columns
     }
+
+    #[inline(always)]
+    fn widen(self, a: Lanes) -> [f64; WIDTH] {
+        a.0.map(f64::from)
+    }
+
+    #[inline(always)]
+    fn narrow(self, a: [f64; WIDTH]) -> Lanes {
+        Lanes(a.map(|value| value as Real))
+    }
+
+    #[inline(always)]
+    fn add_doubles(self, a: [f64; WIDTH], b: [f64; WIDTH]) -> [f64; WIDTH] {
+        zip_doubles(a, b, |a, b| a + b)
+    }
+
+    #[inline(always)]
+    fn sub_doubles(self, a: [f64; WIDTH], b: [f64; WIDTH]) -> [f64; WIDTH] {
+        zip_doubles(a, b, |a, b| a - b)
+    }
+
+    #[inline(always)]
+    fn mul_doubles(self, a: [f64; WIDTH], b: [f64; WIDTH]) -> [f64; WIDTH] {
+        zip_doubles(a, b, |a, b| a * b)
+    }
+
+    #[inline(always)]
+    fn sqrt_doubles(self, a: [f64; WIDTH]) -> [f64; WIDTH] {
+        zip_doubles(a, a, |a, _| a.sqrt())
+    }
+
+    #[inline(always)]
+    fn max_doubles(self, a: [f64; WIDTH], b: [f64; WIDTH]) -> [f64; WIDTH] {
+        zip_doubles(a, b, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn inverse_or_zero(self, a: [f64; WIDTH]) -> [f64; WIDTH] {
+        zip_doubles(a, a, |a, _| if a > 0.0 { 1.0 / a } else { 0.0 })
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
 mod avx {
-    use std::arch::x86_64::{__m256, _CMP_GT_OQ};
+    use std::arch::x86_64::{__m256, __m256d, _CMP_GT_OQ};
 
     use pulp::x86::V3;
 
@@ -204,6 +268,13 @@ mod avx {
             ]
         }
 
+        #[inline(always)]
+        fn half_inverse_or_zero(self, a: __m256d) -> __m256d {
+            let avx = self.0.avx;
+            let mask = avx._mm256_cmp_pd::<_CMP_GT_OQ>(a, avx._mm256_setzero_pd());
+            avx._mm256_and_pd(avx._mm256_div_pd(avx._mm256_set1_pd(1.0), a), mask)
+        }
+
         #[inline]
         pub(crate) fn run(self, pass: impl Pass) {
             pulp::Simd::vectorize(self.0, OnAvx { pass, avx: self });
@@ -212,6 +283,8 @@ mod avx {
 
     impl Machine for Avx {
         type Vector = __m256;
+        /// Lanes 0 to 3, and 4 to 7.
+        type Doubles = (__m256d, __m256d);
 
         #[inline(always)]
         fn load(self, lanes: Lanes) -> __m256 {
@@ -290,6 +363,118 @@ mod avx {
                 columns[i + WIDTH / 2] = self.0.avx._mm256_permute2f128_ps::<0x31>(first[i], second[i]);
             }
             columns
+        }
+
+        #[inline(always)]
+        fn widen(self, a: __m256) -> Self::Doubles {
+            let avx = self.0.avx;
+            let (low, high) = (avx._mm256_extractf128_ps::<0>(a), avx._mm256_extractf128_ps::<1>(a));
+            (avx._mm256_cvtps_pd(low), avx._mm256_cvtps_pd(high))
+        }
+
+        #[inline(always)]
+        fn narrow(self, (low, high): Self::Doubles) -> __m256 {
+            let avx = self.0.avx;
+            avx._mm256_set_m128(avx._mm256_cvtpd_ps(high), avx._mm256_cvtpd_ps(low))
+        }
+
+        #[inline(always)]
+        fn add_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
+            (self.0.avx._mm256_add_pd(a.0, b.0), self.0.avx._mm256_add_pd(a.1, b.1))
+        }
+
+        #[inline(always)]
+        fn sub_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
+            (self.0.avx._mm256_sub_pd(a.0, b.0), self.0.avx._mm256_sub_pd(a.1, b.1))
+        }
+
+        #[inline(always)]
+        fn mul_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
+            (self.0.avx._mm256_mul_pd(a.0, b.0), self.0.avx._mm256_mul_pd(a.1, b.1))
+        }
+
+        #[inline(always)]
+        fn sqrt_doubles(self, a: Self::Doubles) -> Self::Doubles {
+            (self.0.avx._mm256_sqrt_pd(a.0), self.0.avx._mm256_sqrt_pd(a.1))
+        }
+
+        #[inline(always)]
+        fn max_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
+            (self.0.avx._mm256_max_pd(a.0, b.0), self.0.avx._mm256_max_pd(a.1, b.1))
+        }
+
+        #[inline(always)]
+        fn inverse_or_zero(self, (low, high): Self::Doubles) -> Self::Doubles {
+            (self.half_inverse_or_zero(low), self.half_inverse_or_zero(high))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::wide::{Wide, transpose};
+
+    /// All operations on some numbers, one after the other.
+    struct Everything<'a> {
+        numbers: &'a [Lanes],
+        results: &'a mut Vec<Lanes>,
+    }
+
+    impl Pass for Everything<'_> {
+        #[inline(always)]
+        fn run<M: Machine>(self, machine: M) {
+            let Self { numbers, results } = self;
+            for pair in numbers.windows(2) {
+                let (a, b) = (pair[0].on(machine), pair[1].on(machine));
+                for value in [a + b, a - b, a * b, a.div(b), a.max(b), a.min(b), -a, (a * a).sqrt()] {
+                    results.push(value.lanes());
+                }
+                results.push(a.select_positive(a, b).lanes());
+                let positive = if a.all_positive() { 1.0 } else { 0.0 };
+                results.push(Wide::splat(machine, positive).lanes());
+                let (x, y) = (a.doubles(), b.doubles());
+                for value in [x + y, x - y, x * y, x.max(y), (x * x).sqrt(), x.inverse_or_zero()] {
+                    results.push(value.lanes());
+                }
+            }
+            for eight in numbers.windows(WIDTH) {
+                let mut rows = [Wide::zero(machine); WIDTH];
+                for (row, lanes) in rows.iter_mut().zip(eight) {
+                    *row = lanes.on(machine);
+                }
+                results.extend(transpose(machine, &rows).map(Wide::lanes));
+            }
+        }
+    }
+
+    /// Whatever instructions this machine has, they do what plain loops do, to the bit.
+    #[test]
+    fn machines_agree_to_the_bit() {
+        let mut state = 11_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let value = ((state >> 40) as Real) / ((1_u64 << 24) as Real) * 2.0 - 1.0;
+            if state.is_multiple_of(7) { 0.0 } else { value }
+        };
+        let mut numbers: Vec<Lanes> = (0..200).map(|_| Lanes(std::array::from_fn(|_| random()))).collect();
+        numbers.push(Lanes::splat(0.5));
+        numbers.push(Lanes([0.0, -0.0, Real::MIN_POSITIVE, 1e-40, Real::MAX, -Real::MAX, 1.0, -1.0]));
+        let (mut plain, mut fast) = (Vec::new(), Vec::new());
+        Everything { numbers: &numbers, results: &mut plain }.run(Plain);
+        Processor::of_this_machine().run(Everything { numbers: &numbers, results: &mut fast });
+        assert_eq!(plain.len(), fast.len());
+        // What is no number has a sign that machines choose as they like, and never gets this far.
+        let bits = |lanes: &Lanes| lanes.0.map(|value| if value.is_nan() { 0 } else { value.to_bits() });
+        for (index, (a, b)) in plain.iter().zip(&fast).enumerate() {
+            assert_eq!(bits(a), bits(b), "result {index}: {a:?} and {b:?}");
+        }
+        // Rows become columns.
+        let first = &plain[plain.len() - WIDTH * (numbers.len() - WIDTH + 1)..][..WIDTH];
+        for (i, column) in first.iter().enumerate() {
+            for (j, value) in column.0.iter().enumerate() {
+                assert_eq!(value.to_bits(), numbers[j].0[i].to_bits());
+            }
         }
     }
 }

@@ -401,6 +401,7 @@ fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
         slot: u32::MAX,
         inverse_sqrt_mass: 0.0,
         added_moment: 0.0,
+        is_ball: false,
         frame: None,
         inverse_sqrt_moments: [0.0; bodies::MAX_PLANES],
         centre: contact.manifold.points().first().map_or(Vector::ZERO, |point| point.position),

@@ -79,7 +79,7 @@ impl<const N: usize> Turning<N> {
 
     fn find(&mut self, bodies: &[SolverBody<N>], state: &[Real], times: &PassTimes) {
         let (moved, moved_sq) = (f64::from(times.moved), f64::from(times.moved_sq));
-        for (row, body) in bodies.iter().enumerate().skip(1) {
+        for (row, body) in bodies.iter().enumerate().skip(1).filter(|(_, body)| !body.is_ball) {
             let at = row * Sizes::<N>::STATE + Sizes::<N>::VELOCITY + N;
             let scaled = &state[at..at + Sizes::<N>::K];
             let mut by_impulses: f64 = 0.0;

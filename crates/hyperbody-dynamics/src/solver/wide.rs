@@ -67,11 +67,10 @@ impl<M: Machine> Wide<M> {
         self.with(self.machine.div(self.vector, other.vector))
     }
 
-    /// 1 over it where it is > 0, else 0.
+    /// In double precision.
     #[inline(always)]
-    pub(crate) fn inverse_or_zero(self) -> Self {
-        let inverse = Self::splat(self.machine, 1.0).div(self);
-        self.select_positive(inverse, Self::zero(self.machine))
+    pub(crate) fn doubles(self) -> Doubles<M> {
+        Doubles { vectors: self.machine.widen(self.vector), machine: self.machine }
     }
 
     /// Lane by lane: `positive` where `self` > 0, else `otherwise`.
@@ -141,6 +140,95 @@ impl<M: Machine> AddAssign for Wide<M> {
 }
 
 impl<M: Machine> SubAssign for Wide<M> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+/// Lanes in registers, in double precision.
+#[derive(Clone, Copy)]
+pub(crate) struct Doubles<M: Machine> {
+    vectors: M::Doubles,
+    machine: M,
+}
+
+impl<M: Machine> Doubles<M> {
+    #[inline(always)]
+    pub(crate) fn splat(machine: M, value: Real) -> Self {
+        Wide::splat(machine, value).doubles()
+    }
+
+    #[inline(always)]
+    pub(crate) fn zero(machine: M) -> Self {
+        Self::splat(machine, 0.0)
+    }
+
+    #[inline(always)]
+    pub(crate) fn machine(self) -> M {
+        self.machine
+    }
+
+    #[inline(always)]
+    fn with(self, vectors: M::Doubles) -> Self {
+        Self { vectors, ..self }
+    }
+
+    /// In single precision, as they stand in memory.
+    #[inline(always)]
+    pub(crate) fn lanes(self) -> Lanes {
+        self.machine.store(self.machine.narrow(self.vectors))
+    }
+
+    #[inline(always)]
+    pub(crate) fn max(self, other: Self) -> Self {
+        self.with(self.machine.max_doubles(self.vectors, other.vectors))
+    }
+
+    #[inline(always)]
+    pub(crate) fn sqrt(self) -> Self {
+        self.with(self.machine.sqrt_doubles(self.vectors))
+    }
+
+    /// 1 over it where it is > 0, else 0.
+    #[inline(always)]
+    pub(crate) fn inverse_or_zero(self) -> Self {
+        self.with(self.machine.inverse_or_zero(self.vectors))
+    }
+}
+
+impl<M: Machine> Add for Doubles<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.with(self.machine.add_doubles(self.vectors, other.vectors))
+    }
+}
+
+impl<M: Machine> Sub for Doubles<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.with(self.machine.sub_doubles(self.vectors, other.vectors))
+    }
+}
+
+impl<M: Machine> Mul for Doubles<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.with(self.machine.mul_doubles(self.vectors, other.vectors))
+    }
+}
+
+impl<M: Machine> AddAssign for Doubles<M> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<M: Machine> SubAssign for Doubles<M> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;

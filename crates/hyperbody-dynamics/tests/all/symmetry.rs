@@ -49,9 +49,11 @@ fn embedded<const N: usize>() {
         }
     }
     println!("{N}D departs from 3D by {most:?} m");
-    // Free flight and the pendulum are the same to rounding; contacts, to that of their rows in single precision, which edges
-    // that come down make larger: the box that is pushed is lifted by the friction of the push, hops, and lands on one.
-    let allowed = [1e-5, 1e-4, 1e-4, 1e-9, 1e-9];
+    // Free flight and the pendulum are the same to rounding; contacts, to that of their rows in single precision. A box that
+    // slides for two seconds against a deceleration of 4 m/s² goes ½·4·2²·ε astray for each rounding ε = 1.2e-7 by which
+    // friction differs all the time; twenty of them, for sums of thirty terms in another order. Edges that come down make
+    // that larger: the box that is pushed is lifted by the friction of the push, hops, and lands on one.
+    let allowed = [2e-5, 1e-4, 1e-4, 1e-9, 1e-9];
     let same = most.iter().zip(allowed).all(|(&apart, limit)| apart <= limit);
     assert!(same, "{N}D departs from 3D by {most:?} m within two seconds, allowed {allowed:?}");
 }

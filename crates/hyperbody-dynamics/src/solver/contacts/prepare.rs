@@ -57,11 +57,12 @@ impl Prepare {
             centre += point.position * (1.0 / points.len() as f64);
         }
         let tangents = contact.manifold.normal.orthonormal_complement();
-        lane.sliding(contact, centre, &tangents);
+        let motion = lane.base_motion(lane.offsets(centre));
+        lane.sliding(contact, centre, &tangents, motion);
         if block.twists > 0 {
             lane.twisting(contact, &tangents);
         }
-        lane.field(contact, centre, &tangents, block);
+        lane.field(contact, centre, &tangents, motion, block);
         lane.points(contact, centre, &tangents, block);
         if block.resists {
             lane.resistance(contact, &tangents, block);
@@ -115,9 +116,14 @@ impl<const N: usize> Lane<'_, N> {
         }
     }
 
-    fn sliding(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N]) {
+    fn sliding(
+        &mut self,
+        contact: &Contact<N>,
+        centre: Vector<N>,
+        tangents: &[Vector<N>; N],
+        (velocity, acceleration): (Vector<N>, Vector<N>),
+    ) {
         let r = self.offsets(centre);
-        let (velocity, acceleration) = self.base_motion(r);
         let velocity = velocity + self.b.surface - self.a.surface + contact.surface;
         for t in 0..Layout::<N>::SLIDES {
             let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
@@ -163,10 +169,16 @@ impl<const N: usize> Lane<'_, N> {
     }
 
     /// The field of the normal rows: at the centre, and along the tangents.
-    fn field(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
+    fn field(
+        &mut self,
+        contact: &Contact<N>,
+        centre: Vector<N>,
+        tangents: &[Vector<N>; N],
+        (mut velocity, acceleration): (Vector<N>, Vector<N>),
+        block: &Block,
+    ) {
         let normal = contact.manifold.normal;
         let r = self.offsets(centre);
-        let (mut velocity, acceleration) = self.base_motion(r);
         if contact.surface != Vector::ZERO {
             velocity += contact.surface;
         }
