@@ -37,8 +37,8 @@ pub(crate) struct Closest<const N: usize> {
 /// The vertices that made up the last answer: where the next search starts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Seeds {
-    keys: [[u32; 2]; MAX_SIMPLEX],
-    len: u32,
+    pub(crate) keys: [[u32; 2]; MAX_SIMPLEX],
+    pub(crate) len: u32,
 }
 
 impl Seeds {

@@ -38,6 +38,7 @@ pub mod ray;
 mod reduce;
 mod round;
 mod simplex;
+mod stored;
 pub mod tree;
 
 pub use manifold::{ContactPoint, MAX_POINTS, Manifold, max_points};

@@ -40,8 +40,8 @@ pub struct ContactPoint<const N: usize> {
 pub struct Manifold<const N: usize> {
     /// Unit vector from a to b in world coordinates; zero while there are no points.
     pub normal: Vector<N>,
-    points: [ContactPoint<N>; MAX_POINTS],
-    len: u32,
+    pub(crate) points: [ContactPoint<N>; MAX_POINTS],
+    pub(crate) len: u32,
 }
 
 impl<const N: usize> Manifold<N> {

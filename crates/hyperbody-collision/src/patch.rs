@@ -40,11 +40,11 @@ pub(crate) struct PatchScratch<const N: usize> {
 /// What is left of the previous step's patch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PatchMemory {
-    reference_is_b: bool,
+    pub(crate) reference_is_b: bool,
     /// The facets of a and b that met.
-    facets: [u32; 2],
-    ids: [u32; crate::MAX_POINTS],
-    len: u32,
+    pub(crate) facets: [u32; 2],
+    pub(crate) ids: [u32; crate::MAX_POINTS],
+    pub(crate) len: u32,
 }
 
 impl Default for PatchMemory {

@@ -4,7 +4,7 @@
 use hyperbody_collision::ContactPoint;
 use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_math::{Bivector, Vector};
+use hyperbody_math::{Bivector, Pose, Vector};
 
 use crate::body::Body;
 use crate::narrow_phase::{AFTER_IMPACT, Update, meet_first};
@@ -18,6 +18,11 @@ pub(crate) fn ball<const N: usize>(piece: &Piece<N>) -> Option<f64> {
         Piece::Convex(convex) if matches!(convex.core, Core::Point) => Some(convex.radius),
         _ => None,
     }
+}
+
+/// Whether the pieces of a body are one ball about its centre of mass.
+pub(crate) fn is_ball<const N: usize>(pieces: &[(Pose<N>, Piece<N>)], centre: Vector<N>) -> bool {
+    matches!(pieces, [(pose, piece)] if ball(piece).is_some() && pose.translation == centre)
 }
 
 impl<const N: usize> Update<'_, N> {

@@ -73,24 +73,24 @@ pub struct BrokenJoint<const N: usize> {
 /// What happened in the last step.
 #[derive(Clone, Debug)]
 pub struct Events<const N: usize> {
-    contacts: Vec<ContactEvent<N>>,
-    sensors: Vec<SensorEvent>,
-    woken: Vec<BodyHandle>,
-    slept: Vec<BodyHandle>,
-    broken: Vec<BrokenJoint<N>>,
+    pub(crate) contacts: Vec<ContactEvent<N>>,
+    pub(crate) sensors: Vec<SensorEvent>,
+    pub(crate) woken: Vec<BodyHandle>,
+    pub(crate) slept: Vec<BodyHandle>,
+    pub(crate) broken: Vec<BrokenJoint<N>>,
     /// Who touches whom, ascending.
-    touching: Vec<(BodyHandle, BodyHandle)>,
+    pub(crate) touching: Vec<(BodyHandle, BodyHandle)>,
     /// Touches of the step, one for each pair of pieces: buffer.
-    found: Vec<ContactEvent<N>>,
+    pub(crate) found: Vec<ContactEvent<N>>,
     /// The touches found, by their bodies.
-    order: Vec<u32>,
-    counting: Counting,
+    pub(crate) order: Vec<u32>,
+    pub(crate) counting: Counting,
     /// The next `touching`: buffer.
-    next: Vec<(BodyHandle, BodyHandle)>,
+    pub(crate) next: Vec<(BodyHandle, BodyHandle)>,
     /// What is in which sensor, by sensor and body ascending.
-    inside: Vec<(BodyHandle, BodyHandle)>,
+    pub(crate) inside: Vec<(BodyHandle, BodyHandle)>,
     /// The next `inside`: buffer.
-    noticed: Vec<(BodyHandle, BodyHandle)>,
+    pub(crate) noticed: Vec<(BodyHandle, BodyHandle)>,
 }
 
 impl<const N: usize> Events<N> {

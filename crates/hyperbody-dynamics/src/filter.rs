@@ -58,7 +58,7 @@ impl Default for Groups {
 
 /// Pairs of bodies that do not meet, by slot, the lower one first. Looked up, never walked in the step.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct IgnoredPairs(BTreeSet<(u32, u32)>);
+pub(crate) struct IgnoredPairs(pub(crate) BTreeSet<(u32, u32)>);
 
 impl IgnoredPairs {
     pub(crate) const fn new() -> Self {

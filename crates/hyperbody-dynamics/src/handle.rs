@@ -44,16 +44,16 @@ impl Handle for JointHandle {
 }
 
 #[derive(Clone, Debug)]
-struct Slot<T> {
-    generation: u32,
-    value: Option<T>,
+pub(crate) struct Slot<T> {
+    pub(crate) generation: u32,
+    pub(crate) value: Option<T>,
 }
 
 /// Values in numbered slots, addressed by generational handles.
 #[derive(Clone, Debug)]
 pub(crate) struct Arena<T, H> {
-    slots: Vec<Slot<T>>,
-    free: Vec<u32>,
+    pub(crate) slots: Vec<Slot<T>>,
+    pub(crate) free: Vec<u32>,
     handle: PhantomData<H>,
 }
 

@@ -17,17 +17,17 @@ use crate::{BodyHandle, World};
 #[derive(Clone, Debug)]
 pub(crate) struct Islands {
     /// Bodies of each sleeping island; empty ones are free.
-    sleeping: Vec<Vec<u32>>,
-    free: Vec<u32>,
-    parent: Vec<u32>,
+    pub(crate) sleeping: Vec<Vec<u32>>,
+    pub(crate) free: Vec<u32>,
+    pub(crate) parent: Vec<u32>,
     /// By root: shortest time that a body of the island has been slow.
-    least_slow_time: Vec<f64>,
+    pub(crate) least_slow_time: Vec<f64>,
     /// By root: the sleeping island that it became in this step.
-    became: Vec<u32>,
+    pub(crate) became: Vec<u32>,
     /// By root: whether something immovable holds a body of the island.
-    held: Vec<bool>,
+    pub(crate) held: Vec<bool>,
     /// Bodies that fell asleep (true) or woke since the list was last taken.
-    changes: Vec<(BodyHandle, bool)>,
+    pub(crate) changes: Vec<(BodyHandle, bool)>,
 }
 
 const NONE: u32 = u32::MAX;

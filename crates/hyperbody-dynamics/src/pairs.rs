@@ -204,9 +204,9 @@ pub(crate) struct Carried<const N: usize> {
 /// All pairs of a world.
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs<const N: usize> {
-    slots: Vec<Option<Pair<N>>>,
-    free: Vec<u32>,
-    slot_of: BTreeMap<(u32, u32), u32>,
+    pub(crate) slots: Vec<Option<Pair<N>>>,
+    pub(crate) free: Vec<u32>,
+    pub(crate) slot_of: BTreeMap<(u32, u32), u32>,
 }
 
 impl<const N: usize> Pairs<N> {

@@ -3,7 +3,14 @@
 //! A snapshot holds everything that the future depends on, to the bit: bodies with their momenta and timers, joints and
 //! contacts with the impulses that start the next step, the shape of the dynamic tree and the order of pairs, who sleeps
 //! with whom, the slots and generations from which the next handles come. What it leaves out is remade by each step (buffers of
-//! the solver) or is not the world's (threads, clock).
+//! the solver) or is not the world's (threads, clock, contact hook).
+//!
+//! [`bytes`] makes it a save game: bytes with a version and a checksum, from which any process goes on to the bit.
+
+mod assemble;
+pub mod bytes;
+mod check;
+mod parts;
 
 use hyperbody_collision::DynamicTree;
 use hyperbody_math::Vector;
@@ -90,7 +97,7 @@ impl<const N: usize> World<N> {
     }
 
     /// Goes back, or on, to a snapshot, of this world or another one: from here the world does to the bit what that one did.
-    /// Handles are good again as they were then. Threads and clock stay as they are.
+    /// Handles are good again as they were then. Threads, clock and contact hook stay as they are.
     pub fn restore(&mut self, snapshot: &Snapshot<N>) {
         self.gravity = snapshot.gravity;
         self.dt = snapshot.dt;

@@ -5,7 +5,7 @@ use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Pose, Vector};
 
-use crate::balls::ball;
+use crate::balls::is_ball;
 use crate::body::Body;
 use crate::continuous::{Continuous, PieceCore};
 use crate::events::Events;
@@ -223,8 +223,7 @@ impl<const N: usize> World<N> {
         }
         let pieces = body.shape.pieces();
         body.radius = reach(&pieces, body.centre_in_body);
-        body.is_ball = matches!(pieces.as_slice(), [(pose, piece)]
-            if ball(piece).is_some() && pose.translation == body.centre_in_body);
+        body.is_ball = is_ball(&pieces, body.centre_in_body);
         let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for bodies");
         let handle = self.bodies.insert(body).map_err(|_| full())?;
         for (body_from_collider, piece) in pieces {
@@ -406,7 +405,7 @@ pub(crate) fn is_pair_of(pair_a: u32, pair_b: u32, a: u32, b: u32) -> bool {
 }
 
 /// Largest distance of a point of the pieces from `centre`, all in the body's frame.
-fn reach<const N: usize>(pieces: &[(Pose<N>, Piece<N>)], centre: Vector<N>) -> f64 {
+pub(crate) fn reach<const N: usize>(pieces: &[(Pose<N>, Piece<N>)], centre: Vector<N>) -> f64 {
     pieces.iter().fold(0.0, |reach, (pose, piece)| match piece {
         Piece::Convex(convex) => f64::max(reach, pose.translation.distance(centre) + convex.bounding_radius()),
         Piece::HalfSpace { .. } => reach,

@@ -17,12 +17,14 @@
 //! | [`decompose`] | [`convex_cells`](decompose::convex_cells): convex cells of solids that are not convex |
 //! | [`mass`] | [`MassProperties`]: volume, centre, second moments, principal frame |
 //! | [`volume`] | volumes of balls |
+//! | [`bytes`] | numbers and shapes as bytes, for states that are stored |
 //! | [`aabb`] | [`Aabb`]: axis-aligned boxes |
 //! | [`surface`] | [`Surface`]: sections in three dimensions, as polygons and as STL, OBJ, OFF and GLB files |
 //! | [`tolerances`] | every limit and tolerance, with its reason |
 //! | [`error`] | [`GeometryError`] |
 
 pub mod aabb;
+pub mod bytes;
 pub mod convex;
 pub mod decompose;
 pub mod error;

@@ -33,6 +33,8 @@ pub struct Factor {
     faceted: Faceted,
     faceting: f64,
     measure: Arc<dyn FactorMeasure>,
+    /// The shape as bytes, whose type is lost otherwise.
+    definition: Arc<[u8]>,
 }
 
 /// The section function of a factor, whose dimension is in its type only.
@@ -112,6 +114,7 @@ impl Factor {
             faceted,
             faceting,
             measure,
+            definition: crate::bytes::shape_bytes(shape),
         })
     }
 
@@ -137,6 +140,11 @@ impl Factor {
 
     pub(crate) fn axes(&self) -> &[usize] {
         &self.axes
+    }
+
+    /// The axes and the shape, to be stored.
+    pub(crate) fn definition(&self) -> (&[usize], &[u8]) {
+        (&self.axes, &self.definition)
     }
 
     /// m^K.
@@ -311,6 +319,10 @@ impl<const N: usize> SupportMap<N> for Product<N> {
 }
 
 impl<const N: usize> Product<N> {
+    pub(crate) fn factors(&self) -> &[Factor] {
+        &self.factors
+    }
+
     /// The polytope that contacts see.
     #[must_use]
     pub fn faceted(&self) -> &Arc<Polytope<N>> {

@@ -40,6 +40,11 @@ impl<const N: usize> Pyramid<N> {
         self.base.faceting()
     }
 
+    /// Base and height, to be stored.
+    pub(crate) fn definition(&self) -> (&Factor, f64) {
+        (&self.base, self.height)
+    }
+
     fn apex(&self) -> Vector<N> {
         Vector::unit(self.up) * (0.5 * self.height)
     }

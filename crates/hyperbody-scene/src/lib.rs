@@ -32,6 +32,7 @@ mod model;
 mod off;
 mod read;
 pub mod recording;
+mod saved;
 mod shape_file;
 mod world;
 mod write;

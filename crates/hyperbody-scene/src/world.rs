@@ -42,8 +42,8 @@ pub struct BodyState {
 
 /// The whole state of an [`AnyWorld`] at one moment; see [`Snapshot`].
 pub struct AnySnapshot {
-    dimension: usize,
-    state: Box<dyn Any + Send>,
+    pub(crate) dimension: usize,
+    pub(crate) state: Box<dyn Any + Send>,
 }
 
 /// What a world of any dimension can do.

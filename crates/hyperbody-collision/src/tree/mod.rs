@@ -13,6 +13,7 @@
 mod ray;
 mod rays;
 mod rebuild;
+mod stored;
 
 pub use ray::RayStack;
 pub use rays::RayTree;
@@ -34,6 +35,17 @@ struct Node<const N: usize> {
     /// Largest number of steps to a leaf below.
     height: u32,
     state: State,
+}
+
+impl<const N: usize> Node<N> {
+    const EMPTY: Self = Self {
+        aabb: Aabb { lower: Vector::ZERO, upper: Vector::ZERO },
+        parent: NONE,
+        children: [NONE; 2],
+        user: 0,
+        height: 0,
+        state: State::Free,
+    };
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,4 +6,4 @@ mod state;
 
 pub use access::{BodyMut, BodyRef};
 pub use def::{BodyDef, BodyKind};
-pub(crate) use state::Body;
+pub(crate) use state::{Body, Inertia, check_mass};

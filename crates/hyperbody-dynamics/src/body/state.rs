@@ -310,7 +310,7 @@ impl<const N: usize> Body<N> {
 }
 
 /// Masses must survive division in single precision, in which the solver keeps its rows.
-fn check_mass<const N: usize>(mass: f64, inertia: &Inertia<N>) -> Result<(), WorldError> {
+pub(crate) fn check_mass<const N: usize>(mass: f64, inertia: &Inertia<N>) -> Result<(), WorldError> {
     const RANGE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
     if !RANGE.contains(&mass) {
         return Err(WorldError::bad_number(format!(

@@ -25,6 +25,7 @@ mod random_operations;
 mod robustness;
 mod seams;
 mod snapshot;
+mod snapshot_bytes;
 mod stacks_and_piles;
 mod steering;
 mod symmetry;

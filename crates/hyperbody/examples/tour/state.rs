@@ -1,4 +1,4 @@
-//! The state: going back to it, to the bit.
+//! The state: going back to it, to the bit, and saving it.
 
 use hyperbody::prelude::*;
 
@@ -20,6 +20,16 @@ pub(crate) fn run() -> Outcome {
     claim(world.state_hash() != first, "the world is back at half a second")?;
     step_for(&mut world, 2.0);
     claim(world.state_hash() == first, "and goes through the same two seconds again, to the bit")?;
+
+    // A save game: bytes, from which another process goes on as this one did. What was changed on the way is refused.
+    let mut saved = snapshot.to_bytes();
+    println!("  five tesseracts and the ground are saved in {} bytes", saved.len());
+    let mut loaded = World::<4>::new(WorldDef::default())?;
+    loaded.restore(&Snapshot::from_bytes(&saved)?);
+    step_for(&mut loaded, 2.0);
+    claim(loaded.state_hash() == first, "a saved world goes the same way")?;
+    saved[100] ^= 1;
+    claim(Snapshot::<4>::from_bytes(&saved).is_err(), "and a broken file says so")?;
 
     // The future, tried in another world: what would happen if there were less gravity.
     let mut other = World::<4>::new(WorldDef { threads: 2, ..WorldDef::default() })?;

@@ -1,0 +1,302 @@
+//! What a snapshot is made of, part by part, as bytes. Structures list all of their fields, so that a new one cannot be
+//! forgotten; what is a buffer, or follows from the rest, is marked `unset` and made anew by `assemble`.
+
+use hyperbody_collision::MAX_POINTS;
+use hyperbody_geometry::bytes::{BytesError, Reader, Stored, Writer};
+use hyperbody_geometry::{stored, stored_choice};
+use hyperbody_math::{Bivector, Vector};
+
+use crate::BodyKind;
+use crate::body::{Body, Inertia};
+use crate::events::{BrokenJoint, ContactEvent, ContactPhase, Events, SensorEvent, SensorPhase};
+use crate::filter::{Groups, IgnoredPairs};
+use crate::handle::{Arena, BodyHandle, Handle, JointHandle, Slot};
+use crate::islands::Islands;
+use crate::joint::{Freedom, Joint, JointDef, Motor, Spring, WORLD};
+use crate::material::{CombineRule, Material};
+use crate::pairs::{Carried, Contact, Pair, PairRole, Pairs, Passage, Search};
+use crate::tuning::Tuning;
+use crate::world::Motion;
+
+stored!(BodyHandle { index, generation });
+stored!(JointHandle { index, generation });
+stored!(Groups { memberships, mask });
+stored_choice!(BodyKind { Dynamic = 0, Static = 1, Kinematic = 2 });
+stored_choice!(CombineRule { GeometricMean = 0, Average = 1, Minimum = 2, Multiply = 3, Maximum = 4 });
+stored!(Material {
+    friction,
+    restitution,
+    density,
+    rolling_resistance,
+    twisting_resistance,
+    friction_rule,
+    restitution_rule
+});
+stored!(Tuning {
+    contact_hz,
+    contact_damping_ratio,
+    push_out_speed,
+    slop,
+    speculative_distance,
+    recycle_distance,
+    restitution_threshold,
+    joint_hz,
+    joint_damping_ratio,
+    joint_budget: wide,
+    sleep_speed,
+    sleep_time,
+    max_speed,
+    max_spin,
+    tree_margin,
+});
+stored!(Inertia<N> { body_from_principal, moments, isotropic: wide_option });
+stored!(Body<N> {
+    kind,
+    shape,
+    material,
+    colliders,
+    joints: unset,
+    mass,
+    inverse_mass,
+    inertia,
+    centre_in_body,
+    radius: unset,
+    core_radius: unset,
+    is_ball: unset,
+    centre,
+    rotation,
+    velocity,
+    angular_velocity,
+    angular_momentum,
+    force,
+    torque,
+    pushed,
+    steady_force,
+    steady_torque,
+    surface_velocity,
+    led_to,
+    arrived,
+    gravity_scale,
+    linear_damping,
+    angular_damping,
+    groups,
+    sensor,
+    one_way,
+    contact_hook,
+    refilter,
+    can_sleep,
+    slow_time,
+    asleep_in,
+    quarantined,
+    solver_index: unset,
+});
+stored!(Motion { way: wide, speed: wide, awake });
+
+stored!(Motor { speed, max_force: wide });
+stored!(Spring { target, hz, damping_ratio, max_force: wide });
+stored!(Freedom { locked, limits, motor, spring });
+stored!(JointDef<N> {
+    a,
+    b,
+    frame_a,
+    frame_b,
+    axes,
+    planes,
+    distance: open,
+    softness,
+    max_force: wide,
+    max_torque: wide,
+    break_force: wide,
+    break_torque: wide,
+    collide,
+});
+
+/// Rows and groups follow from the definition.
+impl<const N: usize> Stored for Joint<N> {
+    fn write(&self, out: &mut Writer) {
+        self.def.write(out);
+        (self.arm_a, self.arm_b).write(out);
+        self.impulses.write(out);
+        (self.step_impulse, self.step_twist).write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
+        let def: JointDef<N> = Stored::read(from)?;
+        let groups = def.validate().and_then(|()| def.groups());
+        let groups = groups.map_err(|error| from.error(format!("a joint: {error}")))?;
+        let (arm_a, arm_b) = Stored::read(from)?;
+        let impulses: Vec<[f64; 2]> = Stored::read(from)?;
+        let (step_impulse, step_twist): (Vector<N>, Bivector<N>) = Stored::read(from)?;
+        let ends = (def.a.map_or(WORLD, |body| body.index), def.b.index);
+        let joint = Self::new(def, groups, (ends.0, Vector::ZERO), (ends.1, Vector::ZERO));
+        if impulses.len() != joint.rows.len() {
+            let rows = joint.rows.len();
+            return Err(from.error(format!("a joint has {} impulses for {rows} rows", impulses.len())));
+        }
+        Ok(Self { arm_a, arm_b, impulses, step_impulse, step_twist, ..joint })
+    }
+}
+
+stored_choice!(ContactPhase { Begin = 0, Stay = 1, End = 2 });
+stored_choice!(SensorPhase { Enter = 0, Leave = 1 });
+stored!(ContactEvent<N> { bodies, phase, impulse, point, normal });
+stored!(SensorEvent { sensor, other, phase });
+stored!(BrokenJoint<N> { joint, bodies, force, torque });
+stored!(Events<N> {
+    contacts,
+    sensors,
+    woken,
+    slept,
+    broken,
+    touching,
+    found: unset,
+    order: unset,
+    counting: unset,
+    next: unset,
+    inside,
+    noticed: unset,
+});
+stored!(Islands { sleeping, free, parent: unset, least_slow_time: unset, became: unset, held: unset, changes });
+
+impl Stored for IgnoredPairs {
+    fn write(&self, out: &mut Writer) {
+        out.length(self.0.len());
+        self.0.iter().for_each(|pair| pair.write(out));
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
+        let pairs: Vec<(u32, u32)> = Stored::read(from)?;
+        if !(pairs.is_sorted_by(|a, b| a < b) && pairs.iter().all(|(a, b)| a < b)) {
+            return Err(from.error("pairs that are switched off are out of order"));
+        }
+        Ok(Self(pairs.into_iter().collect()))
+    }
+}
+
+stored_choice!(PairRole { Solid = 0, Ruled = 1, Sensor = 2 });
+stored_choice!(Passage { Apart = 0, Held = 1, Passing = 2 });
+stored!(Search<N> { a_from_b, cache });
+stored!(Pair<N> {
+    collider_a,
+    collider_b,
+    body_a,
+    body_b,
+    holds_until: wide,
+    deepest,
+    points,
+    touching,
+    bounces,
+    resists,
+    role,
+    overlaps,
+    suspect,
+    round,
+    passage,
+    search,
+    contact,
+});
+
+/// Of the arrays a contact holds, those elements that belong to points.
+impl<const N: usize> Stored for Contact<N> {
+    fn write(&self, out: &mut Writer) {
+        (self.radii, (self.friction, self.restitution)).write(out);
+        (self.resistance, (self.surface, self.share_of_b)).write(out);
+        self.manifold.write(out);
+        (self.friction_impulse, (self.twist_impulse, self.carried.normal_in_a)).write(out);
+        for point in 0..self.manifold.points().len() {
+            (self.normal_impulses[point], self.step_impulses[point]).write(out);
+            self.carried.anchors[point].write(out);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
+        let (radii, (friction, restitution)): ((f64, f64), (f64, f64)) = Stored::read(from)?;
+        let (resistance, (surface, share_of_b)): ((f64, f64), (Vector<N>, f64)) = Stored::read(from)?;
+        let least = [radii.0, radii.1, friction, restitution, resistance.0, resistance.1, share_of_b];
+        if least.iter().any(|&value| value < 0.0) {
+            return Err(from.error("radii, friction, restitution or resistance of a contact are negative"));
+        }
+        let manifold: hyperbody_collision::Manifold<N> = Stored::read(from)?;
+        let (friction_impulse, (twist_impulse, normal_in_a)) = Stored::read(from)?;
+        let mut contact = Self {
+            radii,
+            friction,
+            restitution,
+            resistance,
+            surface,
+            share_of_b,
+            normal_impulses: [0.0; MAX_POINTS],
+            step_impulses: [0.0; MAX_POINTS],
+            friction_impulse,
+            twist_impulse,
+            carried: Carried { normal_in_a, anchors: [(Vector::ZERO, Vector::ZERO); MAX_POINTS] },
+            manifold,
+        };
+        for point in 0..contact.manifold.points().len() {
+            (contact.normal_impulses[point], contact.step_impulses[point]) = Stored::read(from)?;
+            contact.carried.anchors[point] = Stored::read(from)?;
+        }
+        Ok(contact)
+    }
+}
+
+/// That a list of free slots names each slot without value once, and no other.
+fn check_free(free: &[u32], taken: &[bool], from: &Reader<'_>) -> Result<(), BytesError> {
+    let mut taken = taken.to_vec();
+    for &slot in free {
+        if !taken.get_mut(slot as usize).is_some_and(|taken| !std::mem::replace(taken, true)) {
+            return Err(from.error(format!("slot {slot} is listed as free, but is taken, listed twice, or not there")));
+        }
+    }
+    if taken.iter().all(|&taken| taken) {
+        return Ok(());
+    }
+    Err(from.error("a slot is neither taken nor listed as free"))
+}
+
+impl<T: Stored> Stored for Slot<T> {
+    fn write(&self, out: &mut Writer) {
+        self.generation.write(out);
+        self.value.write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
+        Ok(Self { generation: Stored::read(from)?, value: Stored::read(from)? })
+    }
+}
+
+impl<T: Stored, H: Handle> Stored for Arena<T, H> {
+    fn write(&self, out: &mut Writer) {
+        self.slots.write(out);
+        self.free.write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
+        let mut arena = Self::new();
+        (arena.slots, arena.free) = (Stored::read(from)?, Stored::read(from)?);
+        let taken: Vec<bool> = arena.slots.iter().map(|slot| slot.value.is_some()).collect();
+        check_free(&arena.free, &taken, from)?;
+        Ok(arena)
+    }
+}
+
+impl<const N: usize> Stored for Pairs<N> {
+    fn write(&self, out: &mut Writer) {
+        self.slots.write(out);
+        self.free.write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
+        let mut pairs = Self { slots: Stored::read(from)?, free: Stored::read(from)?, ..Self::new() };
+        let taken: Vec<bool> = pairs.slots.iter().map(Option::is_some).collect();
+        check_free(&pairs.free, &taken, from)?;
+        for (slot, pair) in pairs.slots.iter().enumerate() {
+            let Some(pair) = pair else { continue };
+            let key = (pair.collider_a, pair.collider_b);
+            if key.0 >= key.1 || pairs.slot_of.insert(key, slot as u32).is_some() {
+                return Err(from.error(format!("the pair of colliders {key:?} is out of order, or there twice")));
+            }
+        }
+        Ok(pairs)
+    }
+}
