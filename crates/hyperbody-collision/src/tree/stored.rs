@@ -61,6 +61,9 @@ impl<const N: usize> DynamicTree<N> {
         }
         let mut hangs = vec![false; self.nodes.len()];
         for node in self.nodes.iter().filter(|node| node.state == State::Inner) {
+            if node.height as usize >= self.nodes.len() {
+                return Err(format!("a node is {} steps high among {}", node.height, self.nodes.len()));
+            }
             for child in node.children {
                 if !is_node(child) || std::mem::replace(&mut hangs[child as usize], true) {
                     return Err(format!("node {child} is not there, or hangs on two others"));
