@@ -40,7 +40,7 @@ impl<const N: usize> Snapshot<N> {
         }
         let mut free: Vec<bool> = self.colliders.iter().map(Option::is_none).collect();
         for &slot in &self.free_colliders {
-            if !free.get_mut(slot as usize).is_some_and(|free| std::mem::replace(free, false)) {
+            if !free.get_mut(slot as usize).is_some_and(std::mem::take) {
                 return Err(SnapshotError::bad_state(format!("collider {slot} is listed as free, but is not")));
             }
         }

@@ -244,7 +244,7 @@ impl<const N: usize> Stored for Contact<N> {
 fn check_free(free: &[u32], taken: &[bool], from: &Reader<'_>) -> Result<(), BytesError> {
     let mut taken = taken.to_vec();
     for &slot in free {
-        if !taken.get_mut(slot as usize).is_some_and(|taken| !std::mem::replace(taken, true)) {
+        if taken.get_mut(slot as usize).is_none_or(|taken| std::mem::replace(taken, true)) {
             return Err(from.error(format!("slot {slot} is listed as free, but is taken, listed twice, or not there")));
         }
     }

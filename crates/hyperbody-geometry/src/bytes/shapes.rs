@@ -167,8 +167,8 @@ impl<const N: usize> Stored for Polytope<N> {
     }
 }
 
-/// That the facets bound the hull of the vertices: planes that hold them, incidences that agree, and the other facet at every
-/// place where one ends. Facets that are neighbours may share less than a ridge.
+/// That the facets fit the vertices: planes that hold them, incidences that agree, and neighbours that lean inwards. Facets that are
+/// neighbours may share less than a ridge.
 fn check_polytope<const N: usize>(vertices: &[Vector<N>], facets: &[Facet<N>]) -> Result<(), String> {
     if vertices.len() <= N || facets.len() <= N {
         return Err(format!("it has {} vertices and {} facets", vertices.len(), facets.len()));
@@ -192,8 +192,10 @@ fn check_polytope<const N: usize>(vertices: &[Vector<N>], facets: &[Facet<N>]) -
             return Err(format!("the normal of facet {index} is not of length 1"));
         }
         let height = |v: &Vector<N>| facet.normal.dot(*v) - facet.offset;
-        if vertices.iter().any(|v| height(v) > PLANE_TOLERANCE * size) {
-            return Err(format!("a vertex lies outside of facet {index}"));
+        // What is convex from each facet to the next is convex.
+        let beside = |&other: &u32| facets[other as usize].vertices.iter().filter_map(|&v| vertices.get(v as usize));
+        if facet.neighbours.iter().flat_map(beside).any(|v| height(v) > PLANE_TOLERANCE * size) {
+            return Err(format!("a vertex of a neighbour lies outside of facet {index}"));
         }
         if facet.vertices.iter().any(|&v| height(&vertices[v as usize]) < -PLANE_TOLERANCE * size) {
             return Err(format!("a vertex of facet {index} does not lie in it"));
