@@ -1,8 +1,10 @@
 //! The chores of this workspace in Rust, so that they run wherever the project builds: `cargo xtask --help`.
 
 mod bench;
+mod compare;
 mod figures;
 mod hashes;
+mod instructions;
 mod pictures;
 mod play;
 mod playground;
@@ -32,6 +34,10 @@ enum Chore {
     Test(test::TestArguments),
     /// Times the built-in scenes (or others) and saves the figures under target/bench, with machine and commit
     Bench(bench::BenchArguments),
+    /// Counts the instructions of a step of a few scenes, under valgrind: the same on a busy machine
+    Instructions(instructions::InstructionsArguments),
+    /// Runs a comparison with other engines against this one
+    Compare(compare::CompareArguments),
     /// Builds the playground (engine, page, program) and starts it
     Play(play::PlayArguments),
     /// Draws the pictures of the README and of the gallery page from the built-in scenes
@@ -46,6 +52,8 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().chore {
         Chore::Test(arguments) => test::run(&arguments),
         Chore::Bench(arguments) => bench::run(&arguments),
+        Chore::Instructions(arguments) => instructions::run(&arguments),
+        Chore::Compare(arguments) => compare::run(&arguments),
         Chore::Play(arguments) => play::run(&arguments),
         Chore::Pictures(arguments) => pictures::run(&arguments),
         Chore::Scenes(arguments) => scenes::run(&arguments),
