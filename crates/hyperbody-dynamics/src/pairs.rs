@@ -269,3 +269,36 @@ impl<const N: usize> Pairs<N> {
         &mut self.slots
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::bodies::Sizes;
+    use crate::world::Collider;
+
+    fn sizes<const N: usize>() -> [usize; 6] {
+        let solver = size_of::<crate::solver::bodies::SolverBody<N>>() + Sizes::<N>::STATE * size_of::<f32>();
+        [
+            size_of::<Body<N>>(),
+            size_of::<Collider<N>>(),
+            solver,
+            size_of::<Option<Pair<N>>>(),
+            size_of::<Search<N>>(),
+            size_of::<Contact<N>>(),
+        ]
+    }
+
+    /// What docs/performance.md states, in bytes: body, collider, body in the solver, pair, search, contact.
+    #[test]
+    #[cfg(target_pointer_width = "64")]
+    fn bodies_and_contacts_take_the_stated_memory() {
+        let stated = [
+            [624, 208, 344, 64, 224, 1312],
+            [984, 336, 528, 64, 280, 1768],
+            [1456, 496, 760, 64, 352, 2240],
+            [2040, 688, 1040, 64, 440, 2728],
+            [2736, 912, 1400, 64, 544, 3232],
+        ];
+        assert_eq!([sizes::<2>(), sizes::<3>(), sizes::<4>(), sizes::<5>(), sizes::<6>()], stated);
+    }
+}
