@@ -38,7 +38,7 @@ const FLUSH: f64 = 0.002;
 /// The same in parts of the height, along the plane's normal, of the lower one of the two: small bodies on a floor do meet.
 const FLUSH_SHARE: f64 = 0.05;
 
-/// Speed of a pair from which its contact may be a ghost, m/s: what hardly moves comes to no seam.
+/// Speed of two bodies against each other from which their contact may be a ghost, m/s: what hardly moves comes to no seam.
 pub(crate) const SLIDES: f64 = 0.02;
 
 /// The sine of a lean from which it matters: over a second, gravity makes a hundredth of a millimetre a second of it.
@@ -66,7 +66,8 @@ pub(crate) struct Seams<const N: usize> {
 /// Whether a contact that was just found approaches along its normal, as ghosts do, or parts, as behind an edge, however
 /// little.
 pub(crate) fn is_suspect<const N: usize>(pair: &Pair<N>, a: &Body<N>, b: &Body<N>) -> bool {
-    approach(pair, a, b).abs() > LEAN * (a.velocity - b.velocity).norm()
+    let sliding = (a.velocity - b.velocity).norm();
+    sliding > SLIDES && approach(pair, a, b).abs() > LEAN * sliding
 }
 
 /// Speed at which the two come together at the first point of their contact, m/s.
