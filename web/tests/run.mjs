@@ -1,6 +1,7 @@
 // Runs the browser tests, one file after the other, each with a hard limit, so that a browser that hangs ends the run. A file
-// that fails is run once more: a browser that draws in software on a busy machine misses moments that no user would.
-import { spawnSync } from "node:child_process";
+// that fails is run once more: a browser that draws in software on a busy machine misses moments that no user would. What needed
+// that is named at the end, so that a race does not hide behind it.
+import { spawn, spawnSync } from "node:child_process";
 import { existsSync, readdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { browserPath } from "./support.mjs";
@@ -9,7 +10,7 @@ const here = fileURLToPath(new URL(".", import.meta.url));
 
 /** Longest run of a file, s; the gallery runs every scene, and the weight of the page takes a slow compression. */
 const LIMIT_SECONDS = { "gallery.test.mjs": 420, "load.test.mjs": 240 };
-const USUAL_LIMIT_SECONDS = 120;
+const USUAL_LIMIT_SECONDS = 180;
 
 if (!existsSync(`${here}../dist/index.html`)) {
   console.error("the page is not built: run `cargo xtask play --no-open` once, or `npm run build` with the engine's wasm in place");
@@ -26,19 +27,59 @@ if (!browserPath) {
 
 const wanted = process.argv.slice(2);
 const files = readdirSync(here).filter((name) => name.endsWith(".test.mjs") && (wanted.length === 0 || wanted.some((part) => name.includes(part))));
-let failed = 0;
+if (files.length === 0) {
+  console.error(`no test file has one of these in its name: ${wanted.join(", ")}`);
+  process.exit(1);
+}
+const failed = [];
+const again = [];
 for (const file of files) {
-  if (passes(file)) continue;
-  console.error(`${file}: once more`);
-  if (!passes(file)) failed += 1;
+  const first = await failures(file);
+  if (first === null) continue;
+  console.error(`\n==> ${file} failed and is run once more: ${first}\n`);
+  if ((await failures(file)) === null) again.push(`${file} (${first})`);
+  else failed.push(file);
 }
 
-/** Whether the tests of a file pass within their limit; says so if they do not. */
-function passes(file) {
+/** What failed in a file, in a line; null if nothing did. */
+function failures(file) {
   const seconds = LIMIT_SECONDS[file] ?? USUAL_LIMIT_SECONDS;
-  const { status, error } = spawnSync(process.execPath, ["--test", "--test-reporter=spec", `${here}${file}`], { stdio: "inherit", timeout: 1000 * seconds, killSignal: "SIGKILL" });
-  if (status !== 0) console.error(`${file}: ${error ? `ended after its limit of ${seconds} s` : "failed"}`);
-  return status === 0;
+  return new Promise((resolve) => {
+    const child = spawn(process.execPath, ["--test", "--test-reporter=spec", `${here}${file}`], { stdio: ["ignore", "pipe", "inherit"] });
+    const names = new Set();
+    let late = false;
+    child.stdout.setEncoding("utf8").on("data", (text) => {
+      process.stdout.write(text);
+      for (const [, name] of text.matchAll(/^\s*✖ (.+?)(?: \([\d.]+ms\))?$/gm)) if (name !== "failing tests:") names.add(name);
+    });
+    const limit = setTimeout(() => {
+      late = true;
+      endAll(child.pid);
+    }, 1000 * seconds);
+    child.on("close", (status) => {
+      clearTimeout(limit);
+      if (late) resolve(`ended after its limit of ${seconds} s`);
+      else resolve(status === 0 ? null : [...names].join("; ") || "failed");
+    });
+  });
 }
-console.log(`${files.length - failed} passed, ${failed} failed`);
-process.exit(failed === 0 ? 0 : 1);
+
+/** Ends a process with all that it started: browsers have process groups of their own. */
+function endAll(pid) {
+  const listed = spawnSync("ps", ["-eo", "pid=,ppid="], { encoding: "utf8" }).stdout ?? "";
+  const pairs = listed.trim().split("\n").map((line) => line.trim().split(/\s+/).map(Number));
+  const family = [pid];
+  for (const parent of family) for (const [child, its] of pairs) if (its === parent) family.push(child);
+  for (const member of family) {
+    try {
+      process.kill(member, "SIGKILL");
+    } catch {
+      // Gone already.
+    }
+  }
+}
+
+console.log(`${files.length - failed.length} files passed, ${failed.length} failed, ${again.length} needed a second try`);
+for (const line of again) console.log(`==> SECOND TRY: ${line}`);
+for (const line of failed) console.log(`==> FAILED: ${line}`);
+process.exit(failed.length === 0 ? 0 : 1);

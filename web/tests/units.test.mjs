@@ -89,3 +89,20 @@ test("too slow a machine loses time, and says how much", async () => {
   assert.ok(Math.abs(steps * 0.01 - 0.5 * (now / 1000)) < 0.05 * (now / 1000), `${steps} steps in ${now} ms`);
   assert.ok(Math.abs(pacer.slowdown - 0.5) < 0.1, `it says ${pacer.slowdown}`);
 });
+
+test("a die tells the cell that lies in the ground, and nothing where the slice misses it", async () => {
+  const { restsOn } = await vite.ssrLoadModule("/src/app/dice.ts");
+  const frame = (axes, normals) => ({
+    slice: { axes },
+    surface: { ranges: [3, 0, 3, 5, 3, 3 * normals.length], normals: [[0, -1, 0], ...normals].flatMap((normal) => [normal, normal, normal].flat()), cells: [9, 9, 9, ...normals.flatMap((_, cell) => [cell, cell, cell])] },
+  });
+  const axes = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]];
+  const down = [0, -9.81, 0, 0];
+  const [c, s] = [Math.cos(0.1), Math.sin(0.1)];
+  assert.equal(restsOn(frame(axes, [[1, 0, 0], [0, -1, 0], [0, 1, 0]]), 5, down), 2);
+  assert.equal(restsOn(frame(axes, [[1, 0, 0], [0, 1, 0], [s, -c, 0]]), 5, down), null, "it stands on an edge");
+  assert.equal(restsOn(frame(axes, [[0, -1, 0]]), 7, down), null, "the slice misses it");
+  assert.equal(restsOn(frame(axes, [[0, -1, 0]]), 5, [0, 0, 0, 0]), null, "without weight nothing lies");
+  // The slice is turned in its own axes: its second one points along z.
+  assert.equal(restsOn(frame([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0]], [[0, -1, 0], [0, 0, 1]]), 5, down), 2);
+});

@@ -74,6 +74,7 @@ export const en = {
   thaw: "Let go",
   remove: "Delete",
   goThere: "Slice through its middle",
+  restsOn: (cell: number) => `Lies on cell ${cell}`,
   plots: "The last 8 seconds",
   turnBody: "Turn",
 

@@ -75,6 +75,7 @@ export const zh: Words = {
   thaw: "松开",
   remove: "删除",
   goThere: "切过它的中心",
+  restsOn: (cell) => `落在第 ${cell} 个胞上`,
   plots: "最近 8 秒",
   turnBody: "转动",
 

@@ -3,6 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { t } from "../i18n";
 import { Compass } from "./compass";
 import { usePlayground } from "./context";
+import { DiceLabels } from "./dice-labels";
 import { BodyPanel } from "./body-panel";
 import { Editor } from "./editor";
 import { Gallery } from "./gallery";
@@ -36,6 +37,7 @@ export function App() {
       <Transport />
       <Warnings />
       <OffMarker />
+      <DiceLabels />
       <Hint />
       {playground.flatland.value && <FlatlandFrame />}
       {sheet.value === "gallery" && <Gallery />}

@@ -20,6 +20,8 @@ export function Hint() {
     return () => void playground.onFrame.delete(watch);
   }, [playground]);
   if (seen.value || tourStep.value !== null || playground.slice.offCount === 0 || playground.flatland.value) return null;
+  // On narrow screens the panel of a selected body has its place.
+  if (playground.selected.value !== null && matchMedia("(max-width: 759px)").matches) return null;
   const words = matchMedia("(pointer: coarse)").matches ? t().hintTouch : t().hintMouse;
   return (
     <p class="hint-line glass">

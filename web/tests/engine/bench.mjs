@@ -1,4 +1,6 @@
 // Times what the worker does for a frame: one step, all sections, and the copy of the arrays. node bench.mjs [COUNT…]
+// Times are told; what fails is a benchmark that measured nothing: a world that stood still, or pictures without bodies.
+import assert from "node:assert/strict";
 import { Checked, memory } from "./engine.mjs";
 
 /** A pile of tesseracts of one metre: layers of a grid, every second one turned, dropped from a little above each other. */
@@ -19,6 +21,8 @@ function pile(count) {
   return JSON.stringify({ format: "hyperbody-scene", version: 1, name: "pile", dimension: 4, bodies });
 }
 
+const FRAMES = 400;
+
 function quantile(values, share) {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
@@ -32,12 +36,15 @@ for (const count of counts.length > 0 ? counts : [200, 500]) {
   const physics = [];
   const slicing = [];
   let bytes = 0;
-  for (let frame = 0; frame < 400; frame += 1) {
+  let drawn = 0;
+  const before = JSON.parse(engine.engine.report());
+  for (let frame = 0; frame < FRAMES; frame += 1) {
     const start = performance.now();
     engine.engine.step();
     const middle = performance.now();
     const layout = engine.engine.draw();
     bytes = 0;
+    drawn = Math.max(drawn, layout[1]);
     for (let index = 0; index < layout.length; index += 2) {
       // The cells are the one array of two bytes.
       const size = layout[index + 1] * (index === 4 ? 2 : 4);
@@ -49,6 +56,13 @@ for (const count of counts.length > 0 ? counts : [200, 500]) {
     physics.push(middle - start);
     slicing.push(end - middle);
   }
+  const after = JSON.parse(engine.engine.report());
+  assert.equal(after.step - before.step, FRAMES, "a call of step() made no step");
+  // It falls from rest: what it has lost in height is more than what moves.
+  assert.ok(after.energy.total < 0.95 * before.energy.total, `the pile has not fallen: ${before.energy.total} J, then ${after.energy.total} J`);
+  assert.deepEqual(after.quarantined, [], "bodies had to be stopped");
+  // The slice through the middle cuts a third of the grid, each into twelve triangles or more.
+  assert.ok(drawn >= (count / 6) * 12 * 9, `the fullest picture had ${drawn} coordinates`);
   const total = physics.map((time, index) => time + slicing[index]);
   const told = (values) => `${quantile(values, 0.5).toFixed(2)} (95 %: ${quantile(values, 0.95).toFixed(2)})`;
   console.log(
