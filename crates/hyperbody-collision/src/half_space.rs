@@ -48,14 +48,30 @@ pub(crate) fn collide<const N: usize>(
                 gather(Vector::from_fn(sign), corner);
             }
         }
+        Core::Polytope(polytope) if polytope.stands_for_round() => {
+            let seen = polytope.turned_toward(toward_plane);
+            let facet = Faces::Polytope(polytope).facet_toward(toward_plane, NO_FACET).map(|(facet, _)| facet);
+            // What is round has no facets: it is met where its lowest vertices are, and nowhere else.
+            let round = facet.filter(|&facet| seen.is_round(facet));
+            for (index, vertex) in seen.vertices().enumerate() {
+                if round.is_none_or(|facet| seen.meets(index, facet)) {
+                    gather(vertex, index as u32);
+                }
+            }
+            if round.is_none() {
+                keep_lowest(&Faces::Polytope(polytope), toward_plane, extent, LOWEST_OF_ROUND * extent, reducer);
+            }
+        }
         Core::Polytope(polytope) => {
             for (index, &vertex) in polytope.vertices().iter().enumerate() {
                 gather(vertex, index as u32);
             }
         }
     }
-    let near = (NEARLY_LOWEST * extent).min(0.5 * inner_radius(&shape.core, Vector::ZERO).max(0.0));
-    keep_lowest(&Faces::of(&shape.core), toward_plane, extent, near, reducer);
+    if !matches!(&shape.core, Core::Polytope(polytope) if polytope.stands_for_round()) {
+        let near = (NEARLY_LOWEST * extent).min(0.5 * inner_radius(&shape.core, Vector::ZERO).max(0.0));
+        keep_lowest(&Faces::of(&shape.core), toward_plane, extent, near, reducer);
+    }
     if let (Core::Box { .. }, true) = (&shape.core, 1 << (N - 2) == max_points(N)) {
         classify_corners(toward_plane.axis_of_max_abs(), toward_plane, reducer);
     }
@@ -100,3 +116,7 @@ fn keep_lowest<const N: usize>(
 /// Height above the deepest vertex, in parts of the shape's size, up to which vertices off the lowest facet count; but no
 /// more than a quarter of a flat shape's thickness, whose top does not help to hold it.
 const NEARLY_LOWEST: f64 = 0.02;
+
+/// The same for the faceted form of a curved shape, of which only the lowest points are the shape's own: its other vertices are
+/// where some polytope has them, and would be stumbled over.
+const LOWEST_OF_ROUND: f64 = 1e-3;

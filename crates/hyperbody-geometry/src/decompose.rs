@@ -130,7 +130,7 @@ fn best_plane<const N: usize>(all: &[Wall<N>], crossing: &[usize], tolerance: f6
 }
 
 /// The part of a polytope below a hyperplane; `None` if it is flat or empty.
-fn clip<const N: usize>(cell: &Polytope<N>, plane: &Hyperplane<N>, tolerance: f64) -> Option<Polytope<N>> {
+pub(crate) fn clip<const N: usize>(cell: &Polytope<N>, plane: &Hyperplane<N>, tolerance: f64) -> Option<Polytope<N>> {
     let heights: Vec<f64> = cell.vertices().iter().map(|&v| plane.distance(v)).collect();
     if heights.iter().all(|&h| h <= tolerance) {
         return heights.iter().any(|&h| h < -tolerance).then(|| cell.clone());

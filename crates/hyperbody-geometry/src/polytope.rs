@@ -3,6 +3,7 @@
 use hyperbody_math::{Matrix, Vector};
 
 use crate::error::GeometryErrorKind::BadNumber;
+use crate::round_parts::{RoundPart, TurnedToward};
 use crate::tolerances::MIN_CLIMBING_VERTICES;
 use crate::{FaceLattice, GeometryError, Result, hull, incidence};
 
@@ -19,6 +20,8 @@ pub struct Polytope<const N: usize> {
     bounding_radius: f64,
     /// A vertex farthest along −axis and along +axis, for each axis in turn: where the climb to a support begins.
     axis_supports: Vec<u32>,
+    /// What is round in the shape that this polytope stands for; empty for most.
+    round_parts: Vec<RoundPart>,
 }
 
 /// One facet (face of dimension `N − 1`): the polytope lies where normal·p ≤ offset.
@@ -69,6 +72,7 @@ impl<const N: usize> Polytope<N> {
             vertex_neighbours,
             bounding_radius: 0.0,
             axis_supports: Vec::new(),
+            round_parts: Vec::new(),
         };
         polytope.update_bounds();
         polytope
@@ -89,6 +93,26 @@ impl<const N: usize> Polytope<N> {
         }
         self.update_bounds();
         self
+    }
+
+    /// This polytope in place of a shape that is round in these parts.
+    pub(crate) fn standing_for(mut self, round_parts: Vec<RoundPart>) -> Self {
+        self.round_parts = round_parts;
+        self
+    }
+
+    /// Whether the polytope stands for a shape that is round in some of its dimensions: the faceted form of a product or cone.
+    #[must_use]
+    pub fn stands_for_round(&self) -> bool {
+        !self.round_parts.is_empty()
+    }
+
+    /// This polytope as it is met from one direction (of any length). Where it stands for a shape with round parts, these are
+    /// turned so that a vertex lies exactly where the shape reaches farthest: seen from a plane across that direction it is as
+    /// round as the shape, and rolls like it.
+    #[must_use]
+    pub fn turned_toward(&self, direction: Vector<N>) -> TurnedToward<'_, N> {
+        TurnedToward::new(self, &self.round_parts, direction)
     }
 
     /// Mean of the vertices: a point of the interior.
@@ -130,7 +154,7 @@ impl<const N: usize> Polytope<N> {
     /// The polytope moved by `offset`.
     #[must_use]
     pub fn translated(&self, offset: Vector<N>) -> Self {
-        let mut moved = self.clone();
+        let mut moved = self.clone().standing_for(Vec::new());
         for vertex in &mut moved.vertices {
             *vertex += offset;
         }
@@ -152,7 +176,7 @@ impl<const N: usize> Polytope<N> {
                 format!("a polytope is scaled by {factor}: the factor must be positive and finite"),
             ));
         }
-        let mut scaled = self.clone();
+        let mut scaled = self.clone().standing_for(Vec::new());
         for vertex in &mut scaled.vertices {
             *vertex *= factor;
         }

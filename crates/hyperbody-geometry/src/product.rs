@@ -12,6 +12,7 @@ use hyperbody_math::{Matrix, Vector};
 use crate::error::GeometryErrorKind::{BadCount, Unsupported};
 use crate::mass::MassProperties;
 use crate::polytope::Facet;
+use crate::round_parts::RoundPart;
 use crate::section::density::{self, Simplex, Term};
 use crate::section::{SupportMap, approximate};
 use crate::shape::Piece;
@@ -155,6 +156,19 @@ impl Factor {
     /// How far the polytope that contacts see is from the factor, m.
     pub(crate) const fn faceting(&self) -> f64 {
         self.faceting
+    }
+
+    /// What is round, for a polytope whose vertices have this factor's at the given stride: balls, whose core is a point.
+    pub(crate) fn round_part(&self, stride: usize, total: usize) -> Option<RoundPart> {
+        let ball = self.radius > 0.0 && self.axes.len() > 1 && self.corners.iter().all(|&c| c == 0.0);
+        let count = self.faceted.vertices.len() / self.axes.len();
+        (ball && self.corners.len() == self.axes.len()).then(|| RoundPart {
+            axes: self.axes.clone(),
+            stride,
+            count,
+            total,
+            radius: self.radius,
+        })
     }
 
     /// The vertices of that polytope; zero on other axes.
@@ -425,5 +439,7 @@ fn multiply<const N: usize>(factors: &[Factor]) -> Result<Polytope<N>> {
             });
         }
     }
-    Ok(Polytope::from_parts(vertices, facets))
+    let stride = |index: usize| counts[..index].iter().product::<usize>();
+    let round = factors.iter().enumerate().filter_map(|(index, factor)| factor.round_part(stride(index), total));
+    Ok(Polytope::from_parts(vertices, facets).standing_for(round.collect()))
 }

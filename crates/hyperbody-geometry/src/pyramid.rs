@@ -138,7 +138,11 @@ impl<const N: usize> Shape<N> {
         let mut points = base.faceted_vertices::<N>();
         points.iter_mut().for_each(|point| point[*up] = -0.5 * height);
         points.push(Vector::unit(*up) * (0.5 * height));
-        let polytope = Arc::new(Polytope::from_points(&points)?);
+        let mut polytope = Polytope::from_points(&points)?;
+        if polytope.vertices().len() == points.len() {
+            polytope = polytope.standing_for(base.round_part(1, points.len() - 1).into_iter().collect());
+        }
+        let polytope = Arc::new(polytope);
         if base.faceting() == 0.0 {
             return Self::polytope(polytope);
         }

@@ -10,9 +10,12 @@
 //! and winds around every point beside it a whole number of times: around the middle of a pentagram twice. Volume and moments
 //! of the surface ([`MassProperties::of_closed_boundary`](crate::MassProperties::of_closed_boundary)) count each region
 //! as often as the surface winds around it, which is Cayley's density and the usual meaning of the volume of a star polytope. As
-//! a body to collide with, a star is the set of all points that the surface winds around at all, each once
-//! ([`convex_cells`](crate::decompose::convex_cells)); in 3D that takes a few dozen cells, while those of the star polychora
-//! are too many to be a body.
+//! a body to collide with or to cut, a star is the set of all points that the surface winds around at all, each once ([`cells`]).
+
+mod cells;
+mod envelope;
+
+pub use cells::cells;
 
 use std::collections::BTreeMap;
 

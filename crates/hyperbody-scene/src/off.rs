@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use hyperbody::geometry::MassProperties;
 use hyperbody::geometry::decompose::convex_cells;
 use hyperbody::geometry::off::{OffFile, parse};
 use hyperbody::geometry::regular::Size;
 use hyperbody::geometry::star;
+use hyperbody::geometry::{GeometryErrorKind, MassProperties};
 use hyperbody::prelude::Polytope;
 
 use crate::build::shape_error;
@@ -90,26 +90,27 @@ fn counts<const N: usize>(file: &OffFile) -> Vec<usize> {
     counts
 }
 
-/// Convex cells of the union of what the surface of a star polytope winds around; of up to three dimensions.
+/// Convex cells of the union of what the surface of a star polytope winds around, `most` at most.
 ///
 /// # Errors
-/// As [`star_mass`], and for star polychora, which have too many cells to be a body.
-pub(crate) fn star_cells<const N: usize>(name: &str, size: Size, path: &str) -> Result<Vec<Polytope<N>>> {
-    let file = star_surface::<N>(name, size, path)?;
-    if N > MAX_STAR_DIMENSION {
-        let message = format!(
-            "\"{name}\" is a star polytope of {N} dimensions, whose facets cross each other in too many cells for a body; \
-             `inspect` weighs it, and its hull is a \"polytope\""
-        );
-        return Err(SceneError::new(ErrorKind::Unsupported, path, message));
-    }
+/// As [`star_mass`], and if it takes more cells.
+pub(crate) fn star_cells<const N: usize>(name: &str, size: Size, path: &str, most: usize) -> Result<Vec<Polytope<N>>> {
     let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
-    let points = file.vertices::<N>().unwrap_or_default();
-    convex_cells(&points, &file.boundary::<N>().map_err(refuse)?).map_err(refuse)
+    star_surface::<N>(name, size, path)?;
+    star::cells(&star::symbol(name).map_err(refuse)?, size, most).map_err(|error| {
+        if error.kind() == GeometryErrorKind::BadCount {
+            let message = format!("\"{name}\": {error}; `inspect` weighs it, and its hull is a \"polytope\"");
+            return SceneError::new(ErrorKind::Unsupported, path, message);
+        }
+        refuse(error)
+    })
 }
 
-/// Up to here the cells of star polytopes are a few dozen.
-const MAX_STAR_DIMENSION: usize = 3;
+/// Most convex cells of a star polytope as a body: every one of them is looked at whenever something touches it.
+pub(crate) const MAX_BODY_STAR_CELLS: usize = 4096;
+
+/// The same for one that is only cut: the grand 600-cell takes 50,400, and some seconds.
+pub(crate) const MAX_CUT_STAR_CELLS: usize = 1 << 16;
 
 /// Convex cells of what the surface in a file bounds; the hull for files with vertices only.
 ///

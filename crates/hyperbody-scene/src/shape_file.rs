@@ -96,7 +96,8 @@ impl ShapeFile {
         off::mesh::<N>(&text, "").map_err(|error| error.in_file(Some(&self.file)))
     }
 
-    /// The shape, in `N` dimensions; `N` has to be [`ShapeFile::dimension`].
+    /// The shape, in `N` dimensions, for cutting and weighing; `N` has to be [`ShapeFile::dimension`]. Star polytopes may have more
+    /// cells here than as bodies.
     ///
     /// # Errors
     /// If the numbers of the shape are not those of a shape.
@@ -105,7 +106,7 @@ impl ShapeFile {
         Dim<N>: EvenAlgebra,
     {
         let folder = self.file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let shape = ShapeBuilder::new(Beside { carried: None, folder: Some(folder) }).shape(&self.shape, "");
+        let shape = ShapeBuilder::for_sections(Beside { carried: None, folder: Some(folder) }).shape(&self.shape, "");
         shape.map_err(|error| error.in_file(Some(&self.file)))
     }
 }

@@ -1,8 +1,9 @@
 //! Star polytopes: the face counts and densities of the tables, volumes against flags, and bodies of the star polyhedra.
 
-use hyperbody_geometry::decompose::convex_cells;
+use crate::common::Random;
 use hyperbody_geometry::regular::{self, Size};
 use hyperbody_geometry::{GeometryErrorKind, MassProperties, OffFile, Polytope, off, star};
+use hyperbody_math::{Matrix, Vector};
 
 fn surface(name: &str) -> OffFile {
     star::surface(&star::symbol(name).unwrap(), Size::Circumradius(1.0)).unwrap()
@@ -41,7 +42,7 @@ fn volume_by_flags<const N: usize>(file: &OffFile, group: f64) -> f64 {
             let mut face = face.clone();
             face.sort_unstable();
             face.dedup();
-            let sum = face.iter().fold(hyperbody_math::Vector::ZERO, |sum, &v| sum + points[v as usize]);
+            let sum = face.iter().fold(Vector::ZERO, |sum, &v| sum + points[v as usize]);
             (sum / face.len() as f64).norm()
         })
         .collect();
@@ -107,34 +108,102 @@ fn star_polychora_have_the_faces_of_the_table_and_the_volume_of_their_flags() {
     }
 }
 
-/// As bodies: a dodecahedron or icosahedron and what stands on its faces, each region once.
+/// How often a surface winds around a point: the simplices that a ray in some direction passes through.
+fn winding<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]], from: Vector<N>) -> i32 {
+    let direction = Vector::from_fn(|i| 1.0 / (i as f64 + 1.7));
+    let passes = |simplex: &[u32; N]| {
+        let corners = Matrix::from_columns(simplex.map(|v| points[v as usize] - from));
+        let weights = corners.solve(direction)?;
+        let sense = if corners.determinant() > 0.0 { 1 } else { -1 };
+        weights.iter().all(|weight| weight > 0.0).then_some(sense)
+    };
+    surface.iter().filter_map(passes).sum()
+}
+
+/// The cells hold a point if and only if the surface winds around it, and then one of them alone does.
+fn cells_fill_what_the_surface_winds_around<const N: usize>(name: &str, count: usize) {
+    let symbol = star::symbol(name).unwrap();
+    let file = star::surface(&symbol, Size::Circumradius(1.0)).unwrap();
+    let (points, boundary) = (file.vertices::<N>().unwrap(), file.boundary::<N>().unwrap());
+    let cells = star::cells::<N>(&symbol, Size::Circumradius(1.0), count).unwrap();
+    assert_eq!(cells.len(), count, "{name}");
+    let mut random = Random(N as u64);
+    let (mut inside, mut samples) = (0, 0);
+    while samples < 400 {
+        let point = random.direction::<N>() * random.unit().powf(0.5);
+        let holds = |cell: &&Polytope<N>| cell.facets().iter().all(|f| f.normal.dot(point) < f.offset);
+        let found = cells.iter().filter(holds).count();
+        let wound = winding(&points, &boundary, point);
+        assert_eq!(found, usize::from(wound != 0), "{name}: {found} cells at {point:?}, winding number {wound}");
+        inside += found;
+        samples += 1;
+    }
+    let volume: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+    println!("{name}: {count} cells of {volume} together; {inside} of {samples} points inside");
+    assert!(inside > 40 && inside < 390, "{name}: {inside}");
+}
+
 #[test]
-fn star_polyhedra_are_bodies_of_convex_cells() {
+fn bodies_are_what_the_surface_winds_around() {
+    cells_fill_what_the_surface_winds_around::<3>("{5/2,5}", 12);
+    cells_fill_what_the_surface_winds_around::<3>("{5,5/2}", 30);
+    cells_fill_what_the_surface_winds_around::<3>("{5/2,3}", 20);
+    cells_fill_what_the_surface_winds_around::<3>("{3,5/2}", 90);
+    cells_fill_what_the_surface_winds_around::<4>("{5/2,5,3}", 120);
+    cells_fill_what_the_surface_winds_around::<4>("{3,5,5/2}", 1200);
+    cells_fill_what_the_surface_winds_around::<4>("{5,5/2,5}", 720);
+    cells_fill_what_the_surface_winds_around::<4>("{5/2,3,5}", 120);
+    cells_fill_what_the_surface_winds_around::<4>("{5/2,5,5/2}", 3600);
+    cells_fill_what_the_surface_winds_around::<4>("{3,5/2,5}", 1440);
+    cells_fill_what_the_surface_winds_around::<4>("{5/2,3,3}", 6000);
+}
+
+#[test]
+fn stars_of_too_many_cells_are_refused_with_their_number() {
+    for (symbol, count) in [("{5,5/2,3}", 8400), ("{5,3,5/2}", 14_400), ("{3,3,5/2}", 50_400)] {
+        let error = star::cells::<4>(&star::symbol(symbol).unwrap(), Size::Edge(1.0), 4096).unwrap_err();
+        assert_eq!(error.kind(), GeometryErrorKind::BadCount, "{symbol}");
+        assert!(error.to_string().contains(&format!("{count} convex cells; at most 4096")), "{symbol}: {error}");
+    }
+    let short = star::cells::<4>(&[(5, 2), (5, 1)], Size::Edge(1.0), 100).unwrap_err();
+    assert!(short.to_string().contains("2 entries"), "{short}");
+    // Between its tips a heptagram {7/2} has notches where its sides cross.
+    let seventh = std::f64::consts::PI / 7.0;
+    let notch = (2.0 * seventh).cos() / seventh.cos();
+    let cells = star::cells::<2>(&[(7, 2)], Size::Circumradius(1.0), 14).unwrap();
+    let area: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+    assert!((area - 7.0 * seventh.sin() * notch).abs() < 1e-12, "{area}");
+    assert!(star::cells::<2>(&[(7, 2)], Size::Circumradius(1.0), 1).is_err());
+}
+
+/// Cores with pyramids on their faces: a dodecahedron and an icosahedron, their lateral edges φ times those of the core, and
+/// the first stellation of the 120-cell, whose tips are as far out as its cells' hyperplanes meet.
+#[test]
+fn stellations_are_cores_with_pyramids() {
     let phi = 0.5 * (1.0 + 5.0_f64.sqrt());
-    for (symbol, most) in [("{5/2,5}", 60), ("{5/2,3}", 80)] {
-        let file = surface(symbol);
-        let points = file.vertices::<3>().unwrap();
-        let cells = convex_cells(&points, &file.boundary().unwrap()).unwrap();
+    for (symbol, core) in [("{5/2,5}", "dodecahedron"), ("{5/2,3}", "icosahedron")] {
+        let cells = star::cells::<3>(&star::symbol(symbol).unwrap(), Size::Circumradius(1.0), 100).unwrap();
         let content: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
-        // The core of the pentagrams' planes is a dodecahedron or, for {5/2,3}, an icosahedron's stellation: the pyramids on it
-        // reach to the vertices. Both solids are cores plus pyramids over their faces, with lateral edges φ times the core's.
-        let (core, faces): (Polytope<3>, f64) = if symbol == "{5/2,5}" {
-            (regular::polytope("dodecahedron", Size::Edge(1.0)).unwrap(), 12.0)
-        } else {
-            (regular::polytope("icosahedron", Size::Edge(1.0)).unwrap(), 20.0)
-        };
-        let facet = &core.facets()[0];
-        let inner = facet.offset;
-        let sides = facet.vertices.len() as f64;
+        let core = regular::polytope::<3>(core, Size::Edge(1.0)).unwrap();
+        let inner = core.facets()[0].offset;
         let corner = core.bounding_radius().powi(2) - inner * inner;
         let height = (phi * phi - corner).sqrt();
-        let scale = (inner + height).recip();
-        let area = 0.5 * sides * corner * (std::f64::consts::TAU / sides).sin();
-        let expected = (MassProperties::of_polytope(&core).mass + faces * area * height / 3.0) * scale.powi(3);
-        println!("{symbol}: {} cells, {content} m³, the solid {expected}", cells.len());
-        assert!((content / expected - 1.0).abs() < 1e-9, "{symbol}: {content} for {expected}");
-        assert!(cells.len() <= most, "{symbol}: {} cells", cells.len());
+        // A core of n pyramids of the inradius' height, each with another on top.
+        let expected = MassProperties::of_polytope(&core).mass * (1.0 + height / inner) / (inner + height).powi(3);
+        println!("{symbol}: {content} m³, the solid {expected}");
+        assert!((content / expected - 1.0).abs() < 1e-12, "{symbol}: {content} for {expected}");
     }
+    let core = regular::polytope::<4>("120-cell", Size::Circumradius(1.0)).unwrap();
+    let first = &core.facets()[0];
+    let inner = first.offset;
+    // The tip over a cell is where the hyperplanes of its twelve neighbours meet.
+    let neighbour = core.facets()[first.neighbours[0] as usize].normal.dot(first.normal);
+    let tip = inner / neighbour;
+    let expected = MassProperties::of_polytope(&core).mass * tip / inner / tip.powi(4);
+    let cells = star::cells::<4>(&star::symbol("{5/2,5,3}").unwrap(), Size::Circumradius(1.0), 120).unwrap();
+    let content: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+    println!("{{5/2,5,3}}: {content} m⁴, the solid {expected}");
+    assert!((content / expected - 1.0).abs() < 1e-12, "{content} for {expected}");
 }
 
 #[test]

@@ -28,6 +28,8 @@ pub(crate) const MAX_SHAPE_FILE_BYTES: u64 = 16 << 20;
 /// Makes the shapes of one scene.
 pub(crate) struct ShapeBuilder<'a, const N: usize> {
     beside: Beside<'a>,
+    /// Most convex cells of one star polytope.
+    most_star_cells: usize,
     /// Regular polytopes and files that were made already, by what the scene says of them: hundreds of equal dice share
     /// one polytope.
     made: BTreeMap<String, Arc<Polytope<N>>>,
@@ -39,7 +41,12 @@ where
 {
     /// A builder that takes files from there.
     pub(crate) fn new(beside: Beside<'a>) -> Self {
-        Self { beside, made: BTreeMap::new() }
+        Self { beside, most_star_cells: off::MAX_BODY_STAR_CELLS, made: BTreeMap::new() }
+    }
+
+    /// The same for shapes that are cut and not simulated.
+    pub(crate) fn for_sections(beside: Beside<'a>) -> Self {
+        Self { most_star_cells: off::MAX_CUT_STAR_CELLS, ..Self::new(beside) }
     }
 
     /// The shape that stands at `path` in the scene.
@@ -84,7 +91,9 @@ where
                 let place = format!("{path}.file");
                 compound_of(off::cells(&read_beside(self.beside, file, &place)?, &place)?).map_err(refuse(&place))
             }
-            ShapeSpec::Star { name, size } => compound_of(off::star_cells(name, *size, &path)?).map_err(refuse(&path)),
+            ShapeSpec::Star { name, size } => {
+                compound_of(off::star_cells(name, *size, &path, self.most_star_cells)?).map_err(refuse(&path))
+            }
             ShapeSpec::Pyramid { base, height } => {
                 let base = product::factor::<N>(base, self.beside, &format!("{path}.base"), depth)?;
                 Shape::pyramid(base, *height).map_err(refuse(&path))
