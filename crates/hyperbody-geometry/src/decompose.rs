@@ -152,7 +152,7 @@ pub(crate) fn clip<const N: usize>(cell: &Polytope<N>, plane: &Hyperplane<N>, to
 }
 
 /// How often the surface winds around a point that is not on it: signed crossings of a ray.
-fn winding_number<const N: usize>(pieces: &[[Vector<N>; N]], point: Vector<N>) -> Result<i32> {
+pub(crate) fn winding_number<const N: usize>(pieces: &[[Vector<N>; N]], point: Vector<N>) -> Result<i32> {
     // Directions that no mesh is likely to be aligned with; where a ray meets an edge, the next one is taken.
     for attempt in 1..=16 {
         let direction = Vector::from_fn(|axis| {

@@ -59,7 +59,7 @@ impl OffFile {
         rank.checked_sub(2).and_then(|index| self.elements.get(index)).map_or(&[], Vec::as_slice)
     }
 
-    /// The convex hull of the vertices.
+    /// The convex hull of the vertices; of those that faces name, if the file lists faces.
     ///
     /// The facets that the file lists tell how precise its coordinates are: if the hull has more facets than the file,
     /// flat facets have been broken up by coordinates of few digits, and the hull is made with the first coarser
@@ -78,6 +78,7 @@ impl OffFile {
                 ),
             ));
         };
+        let vertices = self.named_by_faces(vertices);
         let fine = Polytope::from_points(&vertices);
         let listed = self.elements(N - 1).len();
         let settled =
@@ -93,6 +94,13 @@ impl OffFile {
             }
         }
         fine
+    }
+
+    /// The vertices that faces name, in their order; all if there are no faces.
+    fn named_by_faces<const N: usize>(&self, vertices: Vec<Vector<N>>) -> Vec<Vector<N>> {
+        let mut named = vec![self.elements(2).is_empty(); vertices.len()];
+        self.elements(2).iter().flatten().for_each(|&v| named[v as usize] = true);
+        vertices.into_iter().zip(named).filter_map(|(vertex, named)| named.then_some(vertex)).collect()
     }
 
     /// A file of coordinates, `dimension` of them for each vertex, and of the elements from rank 2 on, which have to fit.

@@ -134,8 +134,16 @@ fn closed(file: &OffFile, path: &str) -> Result<()> {
     if is_closed(file) {
         return Ok(());
     }
-    let message = "the surface is open: some ridge of it (in 3D an edge) does not bound exactly two facets; add the facets that \
-                   are missing, or list the vertices alone to get their hull";
+    let repeated = file.repeated_vertices();
+    let remedy = if repeated > 0 {
+        format!(
+            "{repeated} vertices stand where another one does: faces meet only in vertices of the same number, so merge them"
+        )
+    } else {
+        "add the facets that are missing, or list the vertices alone to get their hull".to_owned()
+    };
+    let message =
+        format!("the surface is open: some ridge of it (in 3D an edge) does not bound exactly two facets; {remedy}");
     Err(SceneError::new(ErrorKind::Shape, path, message))
 }
 

@@ -8,9 +8,10 @@
 
 use std::collections::BTreeMap;
 
-use hyperbody_math::Matrix;
+use hyperbody_math::{Matrix, Vector};
 
 use super::OffFile;
+use crate::decompose::winding_number;
 use crate::error::GeometryErrorKind::{BadCount, BadMesh};
 use crate::{GeometryError, Result};
 
@@ -23,7 +24,8 @@ struct Element {
 
 impl OffFile {
     /// The surface that the file lists, as simplices of `N` vertices with neighbours oriented alike; each connected piece of it
-    /// is turned so that its volume is positive. Its volume and moments are those of
+    /// is turned so that its volume is positive, or negative if it lies within an odd number of others: it bounds a hollow then.
+    /// Pieces that cross each other are not within each other. Its volume and moments are those of
     /// [`MassProperties::of_closed_boundary`](crate::MassProperties::of_closed_boundary), where regions around which the
     /// surface winds twice count twice.
     ///
@@ -58,9 +60,9 @@ impl OffFile {
             return Err(GeometryError::new(BadCount, format!("the file lists no facets of dimension {}", N - 1)));
         }
         let all: Vec<u32> = (0..elements.len() as u32).collect();
-        let signs = orient(&all, &elements).map_err(|what| bad(N, 0, what))?;
+        let signs = orient(&all, &elements).map_err(|what| self.bad_surface(what))?;
         let mut pieces: Vec<(Vec<[u32; N]>, f64)> = Vec::new();
-        let origin = points.iter().fold(hyperbody_math::Vector::ZERO, |sum, &p| sum + p) / points.len().max(1) as f64;
+        let origin = points.iter().fold(Vector::ZERO, |sum, &p| sum + p) / points.len().max(1) as f64;
         for (element, (sign, piece)) in elements.iter().zip(signs) {
             pieces.resize_with(pieces.len().max(piece + 1), Default::default);
             for (corners, own) in &element.filling {
@@ -73,19 +75,76 @@ impl OffFile {
                 pieces[piece].1 += volume;
             }
         }
-        let mut surface = Vec::new();
-        for (mut simplices, volume) in pieces {
-            if volume < 0.0 {
-                simplices.iter_mut().for_each(|simplex| simplex.swap(0, 1));
-            }
-            surface.append(&mut simplices);
-        }
-        Ok(surface)
+        let pieces: Vec<Vec<[u32; N]>> = pieces
+            .into_iter()
+            .map(|(simplices, volume)| if volume < 0.0 { turned_over(simplices) } else { simplices })
+            .collect();
+        let hollow: Vec<bool> = (0..pieces.len()).map(|piece| bounds_a_hollow(piece, &pieces, &points)).collect();
+        let turned = |(simplices, hollow)| if hollow { turned_over(simplices) } else { simplices };
+        Ok(pieces.into_iter().zip(hollow).flat_map(turned).collect())
     }
 }
 
+impl OffFile {
+    /// How many vertices stand where another one with a smaller number does. Faces meet only in vertices of the same number, so
+    /// that a file with corners of its own for each face has an open surface.
+    #[must_use]
+    pub fn repeated_vertices(&self) -> usize {
+        // Zeros of both signs are the same place.
+        let mut places: Vec<Vec<u64>> =
+            self.vertices.chunks(self.dimension).map(|v| v.iter().map(|c| (c + 0.0).to_bits()).collect()).collect();
+        places.sort_unstable();
+        places.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    }
+
+    fn bad_surface(&self, what: &str) -> GeometryError {
+        let repeated = self.repeated_vertices();
+        let hint = if what == OPEN && repeated > 0 {
+            format!(
+                "; {repeated} vertices stand where another one does: faces meet only in vertices of the same number, so merge them"
+            )
+        } else {
+            String::new()
+        };
+        GeometryError::new(BadMesh, format!("the surface {what}{hint}"))
+    }
+}
+
+/// What is wrong if a ridge bounds one facet, or more than two.
+const OPEN: &str = "is open or branches: some ridge of it (in 3D an edge) does not bound exactly two facets";
+
+fn turned_over<const N: usize>(mut simplices: Vec<[u32; N]>) -> Vec<[u32; N]> {
+    simplices.iter_mut().for_each(|simplex| simplex.swap(0, 1));
+    simplices
+}
+
+/// Whether a piece of the surface lies within an odd number of the others.
+fn bounds_a_hollow<const N: usize>(piece: usize, pieces: &[Vec<[u32; N]>], points: &[Vector<N>]) -> bool {
+    let mut own: Vec<u32> = pieces[piece].iter().flatten().copied().collect();
+    own.sort_unstable();
+    own.dedup();
+    let range = |piece: &[[u32; N]]| {
+        piece
+            .iter()
+            .flatten()
+            .fold((Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)), |(low, high), &v| {
+                (low.min(points[v as usize]), high.max(points[v as usize]))
+            })
+    };
+    let (low, high) = range(&pieces[piece]);
+    let around = |other: &&Vec<[u32; N]>| {
+        let (outer_low, outer_high) = range(other);
+        if !(0..N).all(|axis| outer_low[axis] < low[axis] && high[axis] < outer_high[axis]) {
+            return false;
+        }
+        let corners: Vec<[Vector<N>; N]> = other.iter().map(|simplex| simplex.map(|v| points[v as usize])).collect();
+        own.iter().all(|&v| winding_number(&corners, points[v as usize]).is_ok_and(|winding| winding != 0))
+    };
+    pieces.iter().filter(around).count() % 2 == 1
+}
+
 fn bad(rank: usize, index: usize, what: &str) -> GeometryError {
-    GeometryError::new(BadMesh, format!("the surface of element {index} of rank {rank} {what}"))
+    GeometryError::new(BadMesh, format!("face {index} of rank {rank} {what}"))
 }
 
 /// Edges by their vertices, numbered as they are met.
@@ -143,7 +202,7 @@ fn orient(parts: &[u32], elements: &[Element]) -> std::result::Result<Vec<(i8, u
         }
     }
     if at_ridge.values().any(|sides| sides.len() != 2) {
-        return Err("is open or branches: a ridge is not in exactly two of its parts");
+        return Err(OPEN);
     }
     let mut signs: Vec<Option<(i8, usize)>> = vec![None; parts.len()];
     let mut pieces = 0;

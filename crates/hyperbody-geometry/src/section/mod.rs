@@ -22,6 +22,7 @@ mod fallback;
 mod frame;
 mod measure;
 mod polytope;
+mod rounded_box;
 mod solid;
 mod support;
 

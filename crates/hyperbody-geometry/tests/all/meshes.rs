@@ -178,6 +178,68 @@ fn open_and_one_sided_surfaces_are_refused() {
     assert_eq!(off::parse(open).unwrap().boundary::<4>().unwrap_err().kind(), GeometryErrorKind::BadCount);
 }
 
+/// A file of nested cubes of these half-widths, every second face turned over: nothing depends on that.
+fn nested_cubes<const N: usize>(half_widths: &[f64], shift: f64) -> OffFile {
+    let cube = OffFile::from_polytope(&polytope::<N>("hypercube", Size::Edge(2.0)).unwrap());
+    let corners = cube.vertices::<N>().unwrap();
+    let mut text =
+        format!("{N}OFF\n{} {} 0", corners.len() * half_widths.len(), cube.elements(2).len() * half_widths.len());
+    (3..N).for_each(|rank| text += &format!(" {}", cube.elements(rank).len() * half_widths.len()));
+    for (k, half) in half_widths.iter().enumerate() {
+        for corner in &corners {
+            let words: Vec<String> = corner.iter().map(|c| (c * half + shift * k as f64).to_string()).collect();
+            text += &format!("\n{}", words.join(" "));
+        }
+    }
+    for rank in 2..N {
+        let below = if rank == 2 { corners.len() } else { cube.elements(rank - 1).len() };
+        for k in 0..half_widths.len() {
+            for (index, face) in cube.elements(rank).iter().enumerate() {
+                let mut words: Vec<String> = face.iter().map(|&part| (part as usize + k * below).to_string()).collect();
+                if (index + k) % 2 == 0 {
+                    words.reverse();
+                }
+                text += &format!("\n{} {}", face.len(), words.join(" "));
+            }
+        }
+    }
+    off::parse(&text).unwrap()
+}
+
+/// A surface within another bounds a hollow, one within that a body again; surfaces that cross each other do neither.
+fn hollows<const N: usize>() {
+    let cube = |half: f64| (2.0 * half).powi(N as i32);
+    let found = mass::<N>(&nested_cubes::<N>(&[1.0, 0.7, 0.2], 0.05)).mass;
+    let expected = cube(1.0) - cube(0.7) + cube(0.2);
+    assert!((found / expected - 1.0).abs() < 1e-12, "{N}D: {found} for {expected}");
+    let crossing = mass::<N>(&nested_cubes::<N>(&[1.0, 0.7], 0.5)).mass;
+    assert!((crossing / (cube(1.0) + cube(0.7)) - 1.0).abs() < 1e-12, "{N}D: {crossing}");
+    let file = nested_cubes::<N>(&[1.0, 0.5], 0.1);
+    let surface = file.boundary::<N>().unwrap();
+    let cells = convex_cells(&file.vertices::<N>().unwrap(), &surface).unwrap();
+    let content: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+    assert!((content / (cube(1.0) - cube(0.5)) - 1.0).abs() < 1e-9, "{N}D: {content} in {} cells", cells.len());
+}
+
+#[test]
+fn surfaces_within_surfaces_bound_hollows() {
+    hollows::<3>();
+    hollows::<4>();
+}
+
+#[test]
+fn files_with_corners_of_their_own_for_each_face_are_told_so() {
+    let soup = "OFF\n12 4 0\n0 0 0\n1 0 0\n0 1 0\n-0 0 0\n1 0 0\n0 0 1\n0 0 0\n0 1 0\n0 0 1\n1 0 0\n0 1 0\n0 0 1\n\
+                3 0 1 2\n3 3 4 5\n3 6 7 8\n3 9 10 11\n";
+    let file = off::parse(soup).unwrap();
+    assert_eq!(file.repeated_vertices(), 8);
+    let error = file.boundary::<3>().unwrap_err();
+    assert!(error.to_string().contains("8 vertices stand where another one does"), "{error}");
+    // A vertex that no face names is no part of the body.
+    let stray = "OFF\n5 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 5 5\n3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n";
+    assert_eq!(off::parse(stray).unwrap().to_polytope::<3>().unwrap().vertices().len(), 4);
+}
+
 /// A pentagram's middle counts twice: |A| is the sum of the triangles of neighbouring points with the centre.
 #[test]
 fn stars_count_their_windings() {
