@@ -7,6 +7,7 @@ mod hashes;
 mod instructions;
 mod pictures;
 mod play;
+mod play_target;
 mod playground;
 mod process;
 mod scenes;

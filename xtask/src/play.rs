@@ -2,18 +2,16 @@
 //!
 //! Every stage looks first whether its result is newer than what it is made from, so that a second start takes seconds.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::SystemTime;
-use std::{env, fs};
 
 use clap::Args;
 
+use crate::play_target::{self, TARGET};
 use crate::process::{build_hyperbody, cargo, root, run as run_command, succeeds, target_directory};
 use crate::{Outcome, playground};
-
-/// What the engine is built for.
-const TARGET: &str = "wasm32-unknown-unknown";
 
 #[derive(Args)]
 pub(crate) struct PlayArguments {
@@ -37,7 +35,7 @@ pub(crate) fn run(arguments: &PlayArguments) -> Outcome {
         return Ok(());
     }
     if arguments.check_hashes {
-        return playground::check_hashes(&[]);
+        return playground::check_hashes();
     }
     page()?;
     println!("==> the program that serves it");
@@ -56,8 +54,7 @@ pub(crate) fn web() -> PathBuf {
 /// Builds the engine into web/src/engine/pkg.
 pub(crate) fn engine() -> Outcome {
     println!("==> the engine for the browser");
-    target()?;
-    run_command(&mut cargo(&["build", "--package", "hyperbody-wasm", "--target", TARGET, "--profile", "wasm"]))?;
+    run_command(play_target::build()?.args(["--package", "hyperbody-wasm", "--profile", "wasm"]))?;
     let built = target_directory()?.join(TARGET).join("wasm/hyperbody_wasm.wasm");
     let package = web().join("src/engine/pkg");
     if is_newer(&package.join("hyperbody_wasm_bg.wasm"), newest(&built)) {
@@ -67,35 +64,13 @@ pub(crate) fn engine() -> Outcome {
     run_command(cargo(&bindgen).arg(&built).arg(&package))
 }
 
-/// Makes sure that the standard library for the browser is there.
-fn target() -> Outcome {
-    let has_library = || {
-        let mut rustc = Command::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
-        let output = rustc.current_dir(root()).args(["--print", "target-libdir", "--target", TARGET]).output();
-        let text = output.ok().and_then(|output| String::from_utf8(output.stdout).ok());
-        text.is_some_and(|folder| fs::read_dir(folder.trim()).is_ok_and(|mut files| files.next().is_some()))
-    };
-    if has_library() {
-        return Ok(());
-    }
-    println!("    this toolchain has no standard library for {TARGET}; `rustup target add {TARGET}` gets it");
-    let added = Command::new("rustup").current_dir(root()).args(["target", "add", TARGET]).status();
-    if added.is_ok_and(|status| status.success()) && has_library() {
-        return Ok(());
-    }
-    Err(format!(
-        "there is no standard library for {TARGET}, and rustup could not get it. On Debian: `apt-get install rustc-web \
-         cargo-web rust-web-src lld`, then build the library from its source with `RUSTC_BOOTSTRAP=1 cargo build -Z \
-         build-std=std,panic_abort --package hyperbody-wasm --target {TARGET} --profile wasm`"
-    ))
-}
-
 /// Builds the page into web/dist.
 pub(crate) fn page() -> Outcome {
     println!("==> the page");
     packages()?;
     let web = web();
-    let sources = ["src", "public", "index.html", "package-lock.json", "tsconfig.json", "vite.config.ts"];
+    let sources =
+        ["src", "public", "index.html", "package-lock.json", "tsconfig.json", "vite.config.ts", "tools/offline.mjs"];
     let changed = sources.iter().filter_map(|name| newest(&web.join(name))).max();
     if is_newer(&web.join("dist/index.html"), changed) {
         return Ok(());
@@ -123,17 +98,37 @@ pub(crate) fn packages() -> Outcome {
     run_command(npm()?.args(["ci", "--no-audit", "--no-fund"]))
 }
 
-/// `npm` in the folder of the page.
+/// `npm` in the folder of the page, with a Node.js that the page's tools run on.
 pub(crate) fn npm() -> Outcome<Command> {
     let name = if cfg!(windows) { "npm.cmd" } else { "npm" };
+    let needed = node_needed()?;
+    let get = "https://nodejs.org has it, and on Debian 13 or later `apt-get install nodejs npm`";
     if !succeeds(Command::new(name).arg("--version")) {
-        return Err("the page is built with Node.js 20 or newer and its npm, which are not here; \
-                    on Debian: `apt-get install nodejs npm`"
-            .to_owned());
+        return Err(format!("the page is built with Node.js {needed} or newer and its npm, which are not here; {get}"));
+    }
+    let found = Command::new("node").arg("--version").output().ok();
+    let found = found.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned()).unwrap_or_default();
+    if version(&found) < version(&needed) {
+        return Err(format!("the page is built with Node.js {needed} or newer; here is {found}; {get}"));
     }
     let mut command = Command::new(name);
     command.current_dir(web());
     Ok(command)
+}
+
+/// The oldest Node.js that the page's package.json allows, such as "20.19".
+fn node_needed() -> Outcome<String> {
+    let path = web().join("package.json");
+    let broken = |why: String| format!("{}: {why}", path.display());
+    let text = fs::read_to_string(&path).map_err(|error| broken(error.to_string()))?;
+    let package: serde_json::Value = serde_json::from_str(&text).map_err(|error| broken(error.to_string()))?;
+    let engines = package["engines"]["node"].as_str().and_then(|range| range.strip_prefix(">="));
+    engines.map(str::to_owned).ok_or_else(|| broken("engines.node is not a text like \">=20.19\"".to_owned()))
+}
+
+/// The numbers of a version, such as "v20.20.2"; what is no number counts as 0.
+fn version(text: &str) -> Vec<u32> {
+    text.trim_start_matches('v').split('.').map(|part| part.parse().unwrap_or(0)).collect()
 }
 
 /// Bytes of all files of a folder, and of them with gzip as they are served.
@@ -170,4 +165,20 @@ fn newest(path: &Path) -> Option<SystemTime> {
 /// Whether a result is there and not older than what it is made from.
 fn is_newer(result: &Path, made_from: Option<SystemTime>) -> bool {
     newest(result).is_some_and(|made| made_from.is_some_and(|changed| made >= changed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{node_needed, version};
+
+    #[test]
+    fn versions_are_compared_by_their_numbers() {
+        assert!(version("v20.20.2") >= version("20.19"));
+        assert!(version("v20.19.0") >= version("20.19"));
+        assert!(version("v100.0.0") >= version("20.19"), "by numbers, not by letters");
+        assert!(version("v18.19.0") < version("20.19"));
+        assert!(version("v20.9.0") < version("20.19"));
+        assert!(version("") < version("20.19"));
+        assert!(node_needed().is_ok_and(|needed| version(&needed) > version("20")), "package.json names a version");
+    }
 }
