@@ -16,6 +16,7 @@ import { PlaygroundProvider } from "./ui/context";
 import { acceptScenes } from "./ui/drop";
 import { offerLost, runText } from "./ui/editor";
 import { cameInLink, followScene } from "./app/address";
+import { keepForLater } from "./app/offline";
 import { offerReadOnly } from "./app/inspection";
 import "./ui/styles.css";
 
@@ -54,6 +55,7 @@ function start(): void {
   });
   addEventListener("hashchange", () => void runLink(playground));
   offerReadOnly(playground);
+  keepForLater(playground);
   render(<PlaygroundProvider value={playground}><App /></PlaygroundProvider>, root);
   playground.start();
   void begin(playground);

@@ -1,7 +1,7 @@
 // Every scene of the gallery is opened by its card and runs five seconds of its time without an error.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { launch, open, serve, until } from "./support.mjs";
+import { DESKTOP, launch, open, serve, until } from "./support.mjs";
 
 const SECONDS = 5;
 const LEAST_SCENES = 24;
@@ -15,7 +15,7 @@ after(async () => {
 
 test("every scene runs", async (t) => {
   // A small picture: what is tested is the worlds, and software graphics is slow.
-  const context = await browser.newContext({ viewport: { width: 480, height: 360 }, locale: "en-GB" });
+  const context = await browser.newContext({ ...DESKTOP, viewport: { width: 480, height: 360 } });
   const { page, errors } = await open(context, server.address, { query: "&speed=4" });
   await page.keyboard.press("c");
   const names = await page.locator("[data-scene]").evaluateAll((cards) => cards.map((card) => card.dataset.scene));

@@ -18,19 +18,19 @@ const FLAGS = [
   "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-background-timer-throttling", "--disable-renderer-backgrounding",
 ];
 
-/** Serves the built page on a free port of this machine. */
-export function serve() {
+/** Serves the built page, or another folder, on a free port of this machine. */
+export function serve(folder = DIST) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://x").pathname)).replace(/^(\.\.[/\\])+/, "");
-    const file = join(DIST, path.endsWith("/") ? `${path}index.html` : path);
-    if (!file.startsWith(DIST) || !existsSync(file)) {
+    const file = join(folder, path.endsWith("/") ? `${path}index.html` : path);
+    if (!file.startsWith(folder) || !existsSync(file)) {
       response.writeHead(404).end();
       return;
     }
     response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream", "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" });
     response.end(readFileSync(file));
   });
-  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve({ address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() })));
+  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve({ address: `http://127.0.0.1:${server.address().port}/`, close: () => (server.close(), server.closeAllConnections()) })));
 }
 
 export function launch() {
@@ -50,8 +50,10 @@ export async function open(context, address, { scene, query = "", ready = true }
 }
 
 /** A context like a desktop's, small enough for software graphics. */
-export const DESKTOP = { viewport: { width: 900, height: 600 }, locale: "en-GB" };
-export const PHONE = { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, locale: "en-GB" };
+/** But for the test of it, nothing is kept for times without a net: all of it would be fetched anew in every test. */
+const NOTHING_KEPT = { serviceWorkers: "block" };
+export const DESKTOP = { viewport: { width: 900, height: 600 }, locale: "en-GB", ...NOTHING_KEPT };
+export const PHONE = { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, locale: "en-GB", ...NOTHING_KEPT };
 
 /** Waits until a function of the page answers something true. */
 export const until = (page, test, argument, timeout = 15_000) => page.waitForFunction(test, argument, { timeout });
