@@ -6,6 +6,9 @@ use super::lanes::{Lanes, Real, WIDTH};
 
 /// A kind of processor: a token that its instructions are there.
 pub(crate) trait Machine: Copy {
+    /// Whether the same code for several lengths is worth its weight.
+    const UNROLLS: bool;
+
     /// [`WIDTH`] numbers in registers.
     type Vector: Copy;
     /// The same in double precision.
@@ -99,6 +102,9 @@ fn zip_doubles(a: [f64; WIDTH], b: [f64; WIDTH], f: impl Fn(f64, f64) -> f64) ->
 }
 
 impl Machine for Plain {
+    /// Old processors, and browsers, whose module has to be small.
+    const UNROLLS: bool = false;
+
     type Vector = Lanes;
     type Doubles = [f64; WIDTH];
 
@@ -282,6 +288,8 @@ mod avx {
     }
 
     impl Machine for Avx {
+        const UNROLLS: bool = true;
+
         type Vector = __m256;
         /// Lanes 0 to 3, and 4 to 7.
         type Doubles = (__m256d, __m256d);

@@ -23,9 +23,6 @@ const BLOCK_TURNS: usize = 4;
 /// Turns, of all, before sweeps take over: the later ones move one point each, which cannot go in circles.
 const PIVOT_TURNS: usize = 16;
 
-/// Whether a program may grow by the same code for several lengths.
-const WEIGHS_LITTLE: bool = cfg!(not(target_arch = "wasm32"));
-
 /// Sweeps where pivoting did not settle.
 const SWEEPS: usize = 6;
 
@@ -80,12 +77,11 @@ impl NormalProblem {
     /// have on its diagonal.
     #[inline(always)]
     pub(crate) fn solve<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize, stiffener: Lanes) {
-        // Loops of a length that the compiler knows take half the time; a module for browsers has to be small.
+        // Loops of a length that the compiler knows take half the time; of eight points it is as much either way.
         match count {
-            1 if WEIGHS_LITTLE => self.solve_rows(machine, k, 1, stiffener),
-            2 if WEIGHS_LITTLE => self.solve_rows(machine, k, 2, stiffener),
-            4 if WEIGHS_LITTLE => self.solve_rows(machine, k, 4, stiffener),
-            8 if WEIGHS_LITTLE => self.solve_rows(machine, k, 8, stiffener),
+            1 if M::UNROLLS => self.solve_rows(machine, k, 1, stiffener),
+            2 if M::UNROLLS => self.solve_rows(machine, k, 2, stiffener),
+            4 if M::UNROLLS => self.solve_rows(machine, k, 4, stiffener),
             _ => self.solve_rows(machine, k, count, stiffener),
         }
     }
