@@ -170,7 +170,7 @@ fn sections_of_rounded_shapes_of_four_dimensions_add_up_to_the_volume() {
     let radius = 0.2;
     // A box along an axis: the sections change where the flat sides end.
     let rounded_box = Shape::rounded(Shape::cuboid(Vector([0.3, 0.4, 0.5, 0.6])).unwrap(), radius).unwrap();
-    let found = 2.0 * between(&rounded_box.solids()[0], Vector::unit(3), &[0.0, 0.6, 0.6 + radius]);
+    let found = 2.0 * between(&rounded_box.solids()[0], Vector::unit(3), &[0.0, 0.6, 0.6 + 0.5 * radius, 0.6 + radius]);
     // A simplex on a facet: where the bottom ends, at the top, and where the surface passes on between balls, cylinders around
     // edges and faces, and facets: at n·u = 1/4 of the sloping facets, √(1/6) and √(3/8) of what two and three of them share.
     let simplex = Shape::rounded(regular::<4>("simplex", 0.7), radius).unwrap();

@@ -224,11 +224,9 @@ fn the_car_drives_over_its_bumps() {
     let end = Run::new("car3d").until(9.0);
     let chassis = named(&end, "chassis");
     assert!(chassis.position[0] > 11.5, "the car came to x = {} m", chassis.position[0]);
-    assert!(
-        (chassis.position[1] - 0.65).abs() < 0.15 && chassis.position[2].abs() < 1.0,
-        "it ended at {:?}",
-        chassis.position
-    );
+    // Bumps turn it by some degrees, to either side.
+    let strayed = chassis.position[2].abs() / chassis.position[0];
+    assert!((chassis.position[1] - 0.65).abs() < 0.15 && strayed < 0.1, "it ended at {:?}", chassis.position);
 }
 
 #[test]

@@ -140,6 +140,19 @@ impl<const N: usize> Over<'_, N> {
             let meet = pieces_overlap(solid, &self.pose, half_space, placed);
             assert_eq!(meet, truth < 0.0, "{name}: {found:?}");
         }
-        assert!(separation_of_pieces(half_space, placed, half_space, &self.pose, scratch).is_none());
+        self.check_two(half_space, placed, scratch);
+    }
+    /// Half-spaces overlap without bounds unless one faces away from the other exactly: then it is as far as it was put.
+    fn check_two(&self, half_space: &Piece<N>, placed: &Pose<N>, scratch: &mut Scratch<N>) {
+        let name = &self.name;
+        let with_itself = separation_of_pieces(half_space, placed, half_space, placed, scratch).expect("they overlap");
+        assert_eq!(with_itself.distance, f64::NEG_INFINITY, "{name}: {with_itself:?}");
+        for gap in [self.size, 0.0, -self.size] {
+            let away = Piece::HalfSpace { normal: -self.up, offset: -(self.level + gap) };
+            let found =
+                separation_of_pieces(half_space, placed, &away, &Pose::IDENTITY, scratch).expect("they are apart");
+            let error = (found.distance - gap).abs().max((found.normal - self.up).max_abs());
+            assert!(error <= 1e-12 * self.scale, "{name}: {found:?} of {gap}");
+        }
     }
 }
