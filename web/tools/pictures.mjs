@@ -5,7 +5,7 @@ import { launch, open, serve } from "../tests/support.mjs";
 
 const OUT = new URL("../public/gallery/", import.meta.url);
 const VIEW = { width: 960, height: 600 };
-const PICTURE = { width: 352, height: 220 };
+const PICTURE = { width: 320, height: 200 };
 const QUALITY = 0.55;
 /** When a scene shows what it is about, s of its time. */
 const USUAL_MOMENT = 1.6;
