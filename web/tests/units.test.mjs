@@ -51,6 +51,78 @@ test("the picture gets coarser when it is slow, finer when there is room, and tr
   assert.equal(ratio, finest, "with room for minutes it is not as fine as at first");
 });
 
+test("on a screen of 30 pictures a second the picture stays fine, and on weak graphics it does not", async () => {
+  const { QualityGuard } = await vite.ssrLoadModule("/src/app/quality.ts");
+  const live = (frameAt, seconds) => {
+    let ratio = 0;
+    let coarse = 0;
+    const stage = { software: false, renderer: { xr: { isPresenting: false } }, setShadows: () => undefined, resize: (_w, _h, value) => (ratio = value) };
+    const guard = new QualityGuard(stage);
+    guard.resize(100, 100);
+    const finest = ratio;
+    for (let spent = 0; spent < seconds; spent += frameAt(ratio)) {
+      guard.pictureTook(frameAt(ratio) * (1 + 0.04 * Math.sin(97 * spent)));
+      if (ratio < finest) coarse += frameAt(ratio);
+    }
+    return { coarse, ratio, finest };
+  };
+  const screen = live(() => 1 / 30, 600);
+  assert.equal(screen.ratio, screen.finest);
+  assert.ok(screen.coarse < 4, `a screen of 30 Hz was drawn coarsely for ${screen.coarse.toFixed(1)} s`);
+  // Shown at multiples of a sixtieth: a quarter of the pixels is fluent, what is between is not.
+  const weak = live((ratio) => Math.ceil((ratio / 2) ** 2 * 3.2) / 60, 60);
+  assert.ok(weak.ratio < weak.finest && weak.coarse > 40, `weak graphics draw at ${weak.ratio} after a minute`);
+});
+
+test("a new scene is cut where most of it shows, and at home where that is nearly as good", async () => {
+  const { fullestSlice } = await vite.ssrLoadModule("/src/view/framing.ts");
+  const scene = (...extents) => [
+    { slice: { off: extents[0].length === 4 ? [[], []] : [[]] }, strip: Float32Array.from(extents.flatMap((extent, id) => [id, ...extent])) },
+    extents.map((_, id) => ({ id, kind: "dynamic" })),
+  ];
+  assert.deepEqual(fullestSlice(...scene([-1, 1], [2, 3])), [0]);
+  assert.deepEqual(fullestSlice(...scene([1, 2], [2.5, 3.5], [2.5, 3.5])), [3]);
+  // Of two off directions a body has to be met along both.
+  assert.deepEqual(fullestSlice(...scene([-1, 1, 4, 6], [-1, 1, 4, 6])), [0, 5]);
+  const [frame, bodies] = scene([4, 5]);
+  assert.deepEqual(fullestSlice(frame, bodies.map((body) => ({ ...body, kind: "static" }))), [0]);
+});
+
+test("the camera sees a box whole, and as near as it can", async () => {
+  const { placeToSee } = await vite.ssrLoadModule("/src/view/framing.ts");
+  const { Box3, Vector3 } = await import("three");
+  for (const [yaw, pitch, wide, high] of [[0.55, 0.3, 0.5, 0.3], [-2, 1, 0.12, 0.3], [0, 0.02, 0.9, 0.1]]) {
+    const back = new Vector3(Math.cos(pitch) * Math.sin(yaw), Math.sin(pitch), Math.cos(pitch) * Math.cos(yaw));
+    const right = new Vector3(Math.cos(yaw), 0, -Math.sin(yaw));
+    const axes = [right, back.clone().cross(right), back.clone().negate()];
+    const box = new Box3(new Vector3(-3, 0, 1), new Vector3(2, 1.5, 2));
+    const place = placeToSee(box, axes, [wide, high]);
+    const shares = [];
+    for (let k = 0; k < 8; k++) {
+      const corner = new Vector3(k & 1 ? 2 : -3, k & 2 ? 1.5 : 0, k & 4 ? 2 : 1).sub(place);
+      const depth = corner.dot(axes[2]);
+      assert.ok(depth > 0, "a corner lies behind the camera");
+      shares.push(corner.dot(axes[0]) / (depth * wide), corner.dot(axes[1]) / (depth * high));
+    }
+    assert.ok(Math.max(...shares.map(Math.abs)) < 1 + 1e-6, `a corner is outside: ${shares}`);
+    // It touches two opposite sides.
+    const touches = [0, 1].some((odd) => {
+      const its = shares.filter((_, k) => k % 2 === odd);
+      return Math.max(...its) > 1 - 1e-6 && Math.min(...its) < -1 + 1e-6;
+    });
+    assert.ok(touches, `there is room left: ${shares}`);
+  }
+});
+
+test("what is wrong with a scene is said in Chinese, with its place, and unknown words stay as they are", async () => {
+  const { zhProblem } = await vite.ssrLoadModule("/src/i18n/zh-problems.ts");
+  assert.equal(zhProblem('bodies[0].shape: unknown key "bal"; the nearest known one is "ball" (known: ball, box)'), "bodies[0].shape：没有“bal”这个键，最接近的是“ball”（可用：ball, box）");
+  assert.equal(zhProblem("bodies[0].position: has 3 numbers, expected 4, one for each dimension"), "bodies[0].position：有 3 个数，应为 4 个");
+  assert.equal(zhProblem("bodies[0].shape.ball.radius: the radius of a ball is -1: it must be a number of metres between 1e-6 and 1e6"), "bodies[0].shape.ball.radius：半径（ball） 是 -1，必须是 1e-6 到 1e6 之间的米数");
+  assert.equal(zhProblem("line 1, column 129: not JSON: trailing comma"), "多了一个逗号");
+  assert.equal(zhProblem("a: something new"), "场景有误。a：something new");
+});
+
 test("after stops of the engine: again, then another scene, then no more", async () => {
   const { Recovery } = await vite.ssrLoadModule("/src/app/recovery.ts");
   const recovery = new Recovery();

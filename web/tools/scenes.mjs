@@ -73,11 +73,20 @@ const scenes = {
     return { name: "Wall and wrecking ball", dimension: 4, description: "A heavy ball flies into a wall of bricks; half of them leave along w. Reset, and throw it yourself.", bodies };
   },
   dominoes_w4d() {
-    const count = 14;
+    // The row runs along x, bends out of the slice into w, by so much and over this length either way, and comes back.
+    const [out, half, straight, apart] = [1.6, 3, 1.6, 0.44];
+    const places = [];
+    for (let x = -half - straight, since = apart; x <= half + straight; x += 0.001) {
+      const slope = Math.abs(x) < half ? -((out * Math.PI) / (2 * half)) * Math.sin((Math.PI * x) / half) : 0;
+      since += 0.001 * Math.hypot(1, slope);
+      if (since < apart) continue;
+      since -= apart;
+      places.push({ x, w: Math.abs(x) < half ? (out / 2) * (1 + Math.cos((Math.PI * x) / half)) : 0, angle: (Math.atan(slope) * 180) / Math.PI });
+    }
     return {
-      name: "Dominoes through w", dimension: 4, description: "The row of dominoes leads out along w: here you see one fall after the other. Turn the slice from x to w (R) to see the whole row.",
-      bodies: [floor(4), ...Array.from({ length: count }, (_, k) => ({
-        name: `domino ${k + 1}`, shape: box(0.45, 0.7, 0.45, 0.1), position: at(4, 0, 0.7, 0, (k - count / 2) * 0.62), ...(k === 0 ? { angular_velocity: { yw: 2.2 } } : {}),
+      name: "Dominoes through w", dimension: 4, description: "The row of dominoes leaves your space along w and comes back: the wave runs on where you see ghosts. Go after it with the slice, or turn it from x to w (R).",
+      bodies: [floor(4), ...places.map(({ x, w, angle }, k) => ({
+        name: `domino ${k + 1}`, shape: box(0.08, 0.6, 0.35, 0.35), position: at(4, x, 0.6, 0, w), rotation: turns({ xw: round(angle) }), ...(k === 0 ? { angular_velocity: { xy: -2.4 } } : {}),
       }))],
     };
   },

@@ -5,12 +5,12 @@ import { Vector3, type Ray } from "three";
 import type { EngineClient } from "../engine/client";
 import type { BodyDescription, BuiltIn, Frame, SceneDescription, Selected } from "../engine/protocol";
 import { Stage } from "../view/stage";
-import { framing } from "../view/framing";
 import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
 import { HAND, HandControl } from "./hand-control";
 import { t, wordsOf } from "../i18n";
 import { textOfOwn } from "../scenes/own";
+import { FirstLook } from "./first-look";
 import { Plots } from "./plots";
 import { QualityGuard } from "./quality";
 import { Recovery } from "./recovery";
@@ -23,9 +23,6 @@ export const GHOST_REACH = 1.5;
 
 /** Panels are told of a frame this often: text that changes faster cannot be read. */
 const READOUT_MS = 80;
-
-/** A new scene is looked at through w = 0, unless its middle lies farther off than this, m. */
-const OFF_CENTRE = 0.3;
 
 /** A longer pause between two pictures is no motion: the tab was hidden. */
 const LONGEST_FRAME = 0.1;
@@ -81,12 +78,12 @@ export class Playground {
   readonly hands: HandControl;
   readonly flat: FlatlandView;
   readonly quality: QualityGuard;
+  private readonly look: FirstLook;
   /** Called with every frame of the engine, before it is drawn. */
   readonly onFrame = new Set<(frame: Frame) => void>();
   /** Called once a picture, with the seconds since the last one. */
   readonly onPicture = new Set<(seconds: number) => void>();
   private pictureWanted: ((picture: Blob) => void) | null = null;
-  private unframed = false;
   /** Loads that the worker has been asked for, in its order. */
   private readonly loads: Load[] = [];
   /** What runs, for a new start. */
@@ -104,6 +101,13 @@ export class Playground {
     this.quality = new QualityGuard(this.stage);
     this.hands = new HandControl(client, () => this.drawnFrame(), (reason) => this.say(reason));
     this.slice.pivot = () => this.pivot();
+    this.look = new FirstLook(this.stage, {
+      drawn: () => this.drawnFrame(),
+      jump: (away) => {
+        this.slice.jump(away);
+        this.sendSlice();
+      },
+    });
     client.onFrame((frame) => this.take(frame));
     client.onScene((scene, loaded) => batch(() => this.takeScene(scene, loaded)));
     client.onFailure((message) => (this.failure.value = { kind: "start", message }));
@@ -376,6 +380,7 @@ export class Playground {
       this.stage.show(frame, GHOST_REACH);
       this.flat.show(frame);
       this.tell(frame, time);
+      if (!calm.value) this.look.settle(seconds, frame, this.bodies);
     }
     this.stage.render(seconds);
     if (this.flatland.value) this.flat.render(this.slice.frame);
@@ -412,16 +417,17 @@ export class Playground {
     return toWorld(frame, this.stage.orbit.target.toArray().slice(0, frame.shown));
   }
 
-  /** Frames a new scene by what its first frame holds. */
-  private frameFirst(frame: Frame): void {
-    this.unframed = false;
-    const found = framing(frame, this.scene.value?.bodies ?? []);
-    if (found) this.stage.setFrame(found.middle, found.extent);
+  private get bodies(): readonly BodyDescription[] {
+    return this.scene.value?.bodies ?? [];
+  }
+
+  /** Sends the camera to where all is seen. */
+  seeAll(): void {
+    if (this.client.frame) this.look.seeAll(this.client.frame, this.bodies);
   }
 
   private take(frame: Frame): void {
-    this.fresh = true;
-    if (this.unframed) this.frameFirst(frame);
+    this.fresh = this.look.take(frame, this.bodies);
     this.stage.setPickSurface(frame.surface);
     this.hands.agree(frame.hands);
     for (const listener of this.onFrame) listener(frame);
@@ -462,13 +468,11 @@ export class Playground {
     this.select(null);
     this.gravity.value = scene.gravity;
     this.setFlatland(this.sceneName.value?.startsWith("flatland") ?? false);
-    const middle = new Vector3(...scene.middle.slice(0, 3), ...(scene.dimension === 2 ? [0] : []));
-    this.stage.setScene(scene, middle);
-    this.unframed = true;
+    this.stage.setScene(scene);
+    this.look.begin();
     this.client.send("ghosts", { on: settings.ghosts.value, reach: GHOST_REACH });
     this.client.send("wires", { on: settings.wires.value });
     this.setSpeed(this.usualSpeed);
-    scene.middle.slice(3).forEach((offset, j) => Math.abs(offset) > OFF_CENTRE && this.slice.moveTo(offset, j));
   }
 
   /** Worlds of three dimensions: the whole world, with the plane of Flatland in it and beside it what its people see. */

@@ -94,6 +94,11 @@ export class SliceControl {
     this.animate(goal, goal.origin);
   }
 
+  /** Is moved along its off directions at once: for a new scene. */
+  jump(away: readonly number[]): void {
+    away.forEach((distance, j) => this.shift(j, distance));
+  }
+
   /** True once after the frame changed. */
   takeChange(): boolean {
     const { changed } = this;

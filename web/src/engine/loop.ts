@@ -50,6 +50,8 @@ export class EngineLoop {
   private scene: SceneDescription | null = null;
   private paused = false;
   private resting = false;
+  /** Chosen for the running scene. */
+  private gravity: number[] | null = null;
   private ghosts = false;
   private wires = false;
   private frames = 0;
@@ -87,6 +89,9 @@ export class EngineLoop {
         return;
       case "scrub":
         this.setPaused(true);
+        break;
+      case "gravity":
+        this.gravity = message.vector;
         break;
       case "ghosts":
         this.ghosts = message.on;
@@ -139,7 +144,7 @@ export class EngineLoop {
     this.dirty = true;
     if (reply.scene) {
       this.scene = reply.scene;
-      if (reply.loaded) this.begin();
+      if (reply.loaded) this.begin(message.type === "reset");
       this.around.send({ type: "scene", scene: reply.scene, loaded: reply.loaded }, []);
     }
     if (!("id" in message)) return;
@@ -154,8 +159,10 @@ export class EngineLoop {
     }
   }
 
-  /** A new scene: what the page has asked to see goes for it too. */
-  private begin(): void {
+  /** A new scene; the same one from its start keeps its gravity, before it takes a step. */
+  private begin(again: boolean): void {
+    if (!again) this.gravity = null;
+    else if (this.gravity) this.around.engine.handle(JSON.stringify({ type: "gravity", vector: this.gravity }));
     this.pacer.restart();
     this.pacer.slowdown = 1;
   }

@@ -104,6 +104,8 @@ export const en = {
   linkCopied: "Link copied",
   linkReady: "The link is in the address bar",
   line: (n: number) => `Line ${n}`,
+  /** What the engine says of a scene's text. */
+  problem: (message: string) => message,
   mine: "Yours",
   sceneSaved: (name: string) => `“${name}” is kept in this browser`,
   keptHere: (address: string) => `Scenes that you keep in the editor stay in this browser, for the address ${address} alone. Another port or browser has its own: take them along as a file.`,

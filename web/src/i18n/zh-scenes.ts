@@ -3,7 +3,7 @@ export const zhScenes: Record<string, { title: string; sentence: string }> = {
   hello4d: { title: "一架子形体", sentence: "八个四维立体。拉一个，扔一个，用滚轮把它沿 w 推出去，再跟过去看看。" },
   staircase4d: { title: "通往 w 的楼梯", sentence: "九个方体排成一列，同时沿 x 和 w 延伸。移动切片，就能拾级而上。" },
   smash4d: { title: "墙与铁球", sentence: "沉重的球撞进砖墙，一半砖块沿 w 飞走。重新开始，自己来扔。" },
-  dominoes_w4d: { title: "穿过 w 的多米诺", sentence: "骨牌沿 w 排开：在这里只能一块接一块地看它们倒下。把切片从 x 转向 w（R），就能看到整排。" },
+  dominoes_w4d: { title: "穿过 w 的多米诺", sentence: "骨牌沿 w 弯出你的空间，又弯回来：倒下的浪在只见虚影处继续前行。用切片去追它，或把切片从 x 转向 w（R）。" },
   regular_dice4d: { title: "六种正骰子", sentence: "四维里仅有的六种正多胞体：5、8、16、24、120、600 个胞的骰子被抛出，最后停在一个胞上。" },
   rings4d: { title: "相扣的环", sentence: "在三维里这两只环永远分不开。拖住一只沿 w 拉出（拖动时滚轮），绕过另一只，再放回来。" },
   sorter4d: { title: "超孔分拣板", sentence: "板上只有一个孔，在 x 和 z 方向宽，在 w 方向窄。哪些能过？哪些要先在 w 里转一转？" },

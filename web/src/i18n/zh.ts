@@ -1,5 +1,6 @@
 // 界面的中文文字。 The page's words in Chinese.
 import type { Words } from "./en";
+import { zhProblem } from "./zh-problems";
 import { zhScenes } from "./zh-scenes";
 
 export const zh: Words = {
@@ -105,6 +106,7 @@ export const zh: Words = {
   linkCopied: "链接已复制",
   linkReady: "链接已在地址栏中",
   line: (n) => `第 ${n} 行`,
+  problem: zhProblem,
   mine: "我的",
   sceneSaved: (name) => `“${name}”已存在此浏览器中`,
   keptHere: (address) => `在编辑器里保存的场景只留在此浏览器、此地址（${address}）。换端口或浏览器就看不到了：请导出为文件带走。`,

@@ -82,7 +82,7 @@ export class KeyboardInput {
       KeyK: () => void (selected !== null && playground.freeze(selected, !playground.readout.value?.selected?.frozen)),
       Delete: () => void (selected !== null && playground.remove(selected)),
       KeyV: () => toggleGravity(playground, playground.gravity.value.every((value) => value === 0)),
-      KeyA: () => playground.stage.frameAll(),
+      KeyA: () => playground.seeAll(),
       KeyM: toggleFullscreen,
       KeyC: () => toggleSheet("gallery"),
       KeyX: () => toggleSheet("editor"),

@@ -114,7 +114,7 @@ export function Editor() {
       {problem.value && (
         <p class="problem" role="alert" data-testid="problem">
           {problem.value.line !== undefined && <b>{t().line(problem.value.line)}: </b>}
-          {problem.value.message}
+          {t().problem(problem.value.message)}
         </p>
       )}
       <footer>

@@ -9,7 +9,7 @@ import type { Picked } from "./pick";
 import type { Stage } from "./stage";
 
 /** Half the height of the cut that is shown, in extents of the scene. */
-const HALF_HEIGHT_EXTENTS = 0.95;
+const HALF_HEIGHT_EXTENTS = 0.85;
 const DEPTH = 400;
 const MOST_PLANES = 8;
 /** From where rays onto the plane start, m above it. */

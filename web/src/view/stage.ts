@@ -1,6 +1,6 @@
 // The stage: renderer, lights, sky, and all layers that a frame fills. It draws what it is given and decides nothing.
 import {
-  DirectionalLight, HemisphereLight, NoToneMapping, PCFShadowMap, Scene, Vector2, Vector3, WebGLRenderer, Raycaster, Group,
+  type Box3, DirectionalLight, HemisphereLight, NoToneMapping, PCFShadowMap, Scene, Vector2, Vector3, WebGLRenderer, Raycaster, Group,
 } from "three";
 import type { Frame, SceneDescription, Surface } from "../engine/protocol";
 import { BodyStyles } from "./body-styles";
@@ -17,18 +17,18 @@ import { SurfaceLayer } from "./surfaces";
 const KEY_FROM = new Vector3(0.45, 1, 0.55).normalize();
 const SHADOW_PIXELS = 2048;
 
-/** The camera stands so many extents away from a new scene. */
-const FIRST_DISTANCE = 2.9;
-/** Flatland's world is seen from farther off: it has half the picture. */
-const ROOM_DISTANCE = 1.4;
+/** Lights, floors and newcomers need some room, however small the scene, m. */
 const LEAST_EXTENT = 1.6;
 /** From where: a little from the side and above; worlds of two dimensions straight on. */
 const FIRST_VIEW = { yaw: 0.55, pitch: 0.3 };
 const FLAT_VIEW = { yaw: 0, pitch: 0.02 };
-/** How far the picture moves for Flatland's window, as shares of its size: aside, or down where it is narrow (CSS pixels). */
-const ROOM_ASIDE = 0.2;
-const ROOM_BELOW = 0.15;
+/** What panels take of the picture, CSS pixels: above, right, below, left; where it is narrow, and where it is wide. */
 const NARROW = 759;
+const PANELS = { narrow: [76, 10, 152, 10], wide: [84, 186, 96, 72] };
+/** Flatland's window: a share of the width on the left, or of the height above where that is narrow. */
+const WINDOW = { narrow: 0.4, wide: 0.48 };
+/** What is looked at first fills so much of the room. */
+const FILLED = 0.94;
 
 export class Stage {
   readonly renderer: WebGLRenderer;
@@ -80,28 +80,38 @@ export class Stage {
     this.key.shadow.radius = 4;
   }
 
-  /** A new scene: colours, and the camera in front of all that moves. `middle` is a slice point. */
-  setScene(scene: SceneDescription, middle: Vector3): void {
+  /** A new scene: its colours. */
+  setScene(scene: SceneDescription): void {
     this.styles.setBodies(scene.bodies);
     this.flatWorld = scene.dimension === 2;
-    this.setFrame(middle, scene.extent);
+  }
+
+  /** What the camera frames and the light reaches from now on: a box in the slice. */
+  setSight(box: Box3): void {
+    this.extent = Math.max(LEAST_EXTENT, 0.5 * box.getSize(this.middle).length());
+    box.getCenter(this.middle);
+    this.see(box);
+    this.orbit.jump();
+    this.aimLight();
     this.halfSpaces.setScale(this.middle, this.extent);
   }
 
-  /** What the camera frames and the light reaches from now on: a ball in the slice. */
-  setFrame(middle: Vector3, extent: number): void {
-    this.extent = Math.max(LEAST_EXTENT, extent);
-    this.middle.copy(middle);
-    this.frameAll();
-    this.orbit.jump();
-    this.aimLight();
+  /** Sends the camera to where a box of the slice is seen whole, beside all panels; or lets it glide there, from where it looks now. */
+  see(box: Box3, glide = false): void {
+    const [top, right, bottom, left] = this.panels();
+    const [width, height] = this.size;
+    const room: [number, number] = [FILLED * (1 - (left + right) / width), FILLED * (1 - (top + bottom) / height)];
+    this.orbit.see(box, room, glide ? null : this.flatWorld ? FLAT_VIEW : FIRST_VIEW);
   }
 
-  /** Sends the camera to where the whole scene is seen. */
-  frameAll(): void {
-    const narrow = Math.max(1, 1.05 / this.orbit.camera.aspect);
-    const room = this.roomMade ? ROOM_DISTANCE : 1;
-    this.orbit.lookAt(this.middle, FIRST_DISTANCE * this.extent * narrow * room, this.flatWorld ? FLAT_VIEW : FIRST_VIEW);
+  /** What panels hide at the four sides, at most half of each length. */
+  private panels(): number[] {
+    const [width, height] = this.size;
+    const narrow = width <= NARROW;
+    const [top, right, bottom, left] = PANELS[narrow ? "narrow" : "wide"];
+    const all = [top, right, bottom, left];
+    if (this.roomMade) all[narrow ? 0 : 3] = narrow ? WINDOW.narrow * height + top : WINDOW.wide * width;
+    return all.map((side, k) => Math.min(side, (k % 2 === 0 ? height : width) / 2.2));
   }
 
   private aimLight(): void {
@@ -149,15 +159,14 @@ export class Stage {
     this.makeRoom(this.roomMade);
   }
 
-  /** Shifts the picture aside, so that Flatland's window does not hide it. */
+  /** Leaves room for Flatland's window, or not. */
   makeRoom(on: boolean): void {
     this.roomMade = on;
     const [width, height] = this.size;
-    const { camera } = this.orbit;
-    if (!on) camera.clearViewOffset();
-    else if (width > NARROW) camera.setViewOffset(width, height, -ROOM_ASIDE * width, 0, width, height);
-    else camera.setViewOffset(width, height, 0, -ROOM_BELOW * height, width, height);
-    camera.updateProjectionMatrix();
+    const [top, right, bottom, left] = this.panels();
+    // The middle of what no panel hides is the middle of the picture.
+    this.orbit.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
+    this.orbit.camera.updateProjectionMatrix();
   }
 
   render(seconds: number): void {

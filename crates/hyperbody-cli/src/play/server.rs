@@ -65,7 +65,15 @@ fn answer(request: Request, site: &Site) {
             let path = request.url().split(['?', '#']).next().unwrap_or("").trim_start_matches('/');
             match (site.way(path), site.file(path)) {
                 (Some(way), _) => header(("Location", way)).into_iter().fold(text(302, ""), Response::with_header),
-                (None, Some(content)) => file(path, content, accepts_gzip(&request)),
+                (None, Some(_)) if path == WORKER => worker(),
+                (None, Some(content)) => {
+                    let tag = tag_of(&content.bytes);
+                    if is_known(&request, &tag) {
+                        unchanged(&tag)
+                    } else {
+                        file(path, content, accepts_gzip(&request), &tag)
+                    }
+                }
                 (None, None) => text(404, "There is no such file here."),
             }
         }
@@ -77,13 +85,49 @@ fn answer(request: Request, site: &Site) {
 
 type Answer = Response<std::io::Cursor<Vec<u8>>>;
 
-fn file(path: &str, content: Content, gzip: bool) -> Answer {
+/// What makes an exported page work without a net: the browser's worker between page and server. Here the page comes from
+/// this machine, and what the browser keeps must not outlive the program: the worker is answered by one that removes itself.
+const WORKER: &str = "sw.js";
+
+fn worker() -> Answer {
+    let code = "addEventListener(\"install\", () => skipWaiting());\n\
+                const tidy = async () => {\n\
+                for (const name of await caches.keys()) if (name.startsWith(\"hyperbody-\")) await caches.delete(name);\n\
+                await registration.unregister();\n\
+                };\n\
+                addEventListener(\"activate\", (event) => event.waitUntil(tidy()));\n";
+    let headers = [("Content-Type", mime_type(WORKER)), ("Cache-Control", "no-cache")];
+    headers.into_iter().filter_map(header).fold(text(200, code), Response::with_header)
+}
+
+/// Names what a file holds (FNV-1a), weakly: it is the same with and without compression.
+fn tag_of(bytes: &[u8]) -> String {
+    let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    format!("W/\"{:016x}\"", bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix))
+}
+
+/// Whether the browser has this content already; tags are compared without their mark of weakness (RFC 9110, 13.1.2).
+fn is_known(request: &Request, tag: &str) -> bool {
+    let opaque = |tag: &str| tag.trim().trim_start_matches("W/").to_owned();
+    let mut known = request.headers().iter().filter(|header| header.field.equiv("If-None-Match"));
+    known.any(|header| header.value.as_str().split(',').any(|each| opaque(each) == opaque(tag) || each.trim() == "*"))
+}
+
+fn unchanged(tag: &str) -> Answer {
+    let headers = [("ETag", tag), ("Cache-Control", "no-cache"), ("Vary", "Accept-Encoding")];
+    // No type: it would take the place of the one that the browser remembers.
+    let response = Response::from_data(Vec::new()).with_status_code(StatusCode(304));
+    headers.into_iter().chain(ISOLATION).filter_map(header).fold(response, Response::with_header)
+}
+
+fn file(path: &str, content: Content, gzip: bool, tag: &str) -> Answer {
     let Content { compressed, bytes, immutable } = content;
     let sends_gzip = compressed && gzip;
     let Ok(bytes) = plain(compressed && !gzip, &bytes) else { return text(500, "This file is damaged.") };
     let caching = if immutable { "public, max-age=31536000, immutable" } else { "no-cache" };
     let mut response = Response::from_data(bytes);
     let mut headers = vec![("Content-Type", mime_type(path)), ("Cache-Control", caching), ("Vary", "Accept-Encoding")];
+    headers.push(("ETag", tag));
     if sends_gzip {
         headers.push(("Content-Encoding", "gzip"));
     }

@@ -43,9 +43,14 @@ impl Serving {
 
     /// The head and the body of an answer.
     fn ask(&self, request: &str) -> (String, Vec<u8>) {
+        self.ask_with(request, "")
+    }
+
+    /// The same with further lines in the head of the request.
+    fn ask_with(&self, request: &str, lines: &str) -> (String, Vec<u8>) {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).expect("it listens");
         stream.set_read_timeout(Some(std::time::Duration::from_secs(20))).expect("a time limit can be set");
-        write!(stream, "{request} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").expect("it reads");
+        write!(stream, "{request} HTTP/1.1\r\nHost: x\r\n{lines}Connection: close\r\n\r\n").expect("it reads");
         let mut answer = Vec::new();
         stream.read_to_end(&mut answer).expect("it answers");
         let end = answer.windows(4).position(|four| four == b"\r\n\r\n").expect("a head ends");
@@ -77,6 +82,29 @@ fn files_come_with_their_types_and_the_headers_that_shared_memory_needs() {
         assert!(serving.ask(missing).0.starts_with("http/1.1 404"), "{missing}");
     }
     assert!(serving.ask("POST /").0.starts_with("http/1.1 405"));
+}
+
+#[test]
+fn what_a_browser_has_already_is_not_sent_again() {
+    let folder = site("tags");
+    std::fs::write(folder.join("sw.js"), "addEventListener('fetch', () => {});").expect("it can be written");
+    let serving = Serving::start(&folder, &[]);
+    let tag_of = |head: &str| head.lines().find_map(|line| line.strip_prefix("etag: w/")).map(str::to_owned);
+    let (head, _) = serving.ask("GET /");
+    let tag = tag_of(&head).unwrap_or_else(|| panic!("no tag: {head}"));
+    let ask_with = |tag: &str| serving.ask_with("GET /", &format!("If-None-Match: \"other\", W/{tag}\r\n"));
+    let (head, body) = ask_with(&tag);
+    assert!(head.starts_with("http/1.1 304") && body.is_empty(), "{head}");
+    assert_eq!(tag_of(&head), Some(tag.clone()));
+    // Its content is another one, and so is its tag.
+    std::fs::write(folder.join("index.html"), "<!doctype html><p>").expect("it can be written");
+    let (head, body) = ask_with(&tag);
+    assert!(head.starts_with("http/1.1 200") && body == b"<!doctype html><p>", "{head}");
+    assert_ne!(tag_of(&head), Some(tag));
+    // The worker that keeps an exported page for later must not keep this one.
+    let (head, body) = serving.ask("GET /sw.js");
+    assert!(head.starts_with("http/1.1 200") && head.contains("content-type: text/javascript"), "{head}");
+    assert!(String::from_utf8_lossy(&body).contains("unregister"), "{body:?}");
 }
 
 #[test]

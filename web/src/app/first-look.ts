@@ -1,0 +1,84 @@
+// How a new scene is first seen: through which slice, from where, and, until somebody takes hold, where to as it falls into place.
+import { Box3, Vector3 } from "three";
+import type { BodyDescription, Frame } from "../engine/protocol";
+import { fullestSlice, sight } from "../view/framing";
+import type { Stage } from "../view/stage";
+import type { SliceFrame } from "./slice-frame";
+
+/** Slices nearer to each other than this are the same, m. */
+const SAME_SLICE = 1e-6;
+/** The camera goes with a new scene for so long, s; what the picture has to hold grows at once and shrinks at this rate, 1/s. */
+const SETTLING_SECONDS = 6;
+const SHRINK_RATE = 1;
+/** What goes farther off than this share of the scene's size is let go. */
+const LET_GO = 0.7;
+
+/** Where the slice stands, and how it is moved at once. */
+interface Slicing {
+  drawn(): SliceFrame;
+  jump(away: readonly number[]): void;
+}
+
+export class FirstLook {
+  /** A new scene is not drawn before its first frame has said where to look. */
+  private opening: "slice" | "camera" | null = null;
+  /** Seconds for which the camera still goes with the scene. */
+  private left = 0;
+  private readonly seen = new Box3();
+  private readonly limit = new Box3();
+
+  constructor(private readonly stage: Stage, private readonly slicing: Slicing) {
+    for (const hand of ["pointerdown", "wheel", "keydown"]) addEventListener(hand, () => this.stay(), { capture: true, passive: true });
+  }
+
+  /** A new scene: its next frame is its first. */
+  begin(): void {
+    this.opening = "slice";
+    this.left = 0;
+  }
+
+  /** The camera stays where it is. */
+  stay(): void {
+    if (this.left > 0) this.stage.orbit.halt();
+    this.left = 0;
+  }
+
+  /** Sends the camera to where all that the slice shows is seen. */
+  seeAll(frame: Frame, bodies: readonly BodyDescription[]): void {
+    const box = sight(frame, bodies);
+    if (box) this.stage.see(box);
+  }
+
+  /** Whether a frame may be drawn. By the first frames of a scene it chooses where to cut, then, by the cut, from where to look. */
+  take(frame: Frame, bodies: readonly BodyDescription[]): boolean {
+    if (!this.opening) return true;
+    if (this.opening === "slice") {
+      this.opening = "camera";
+      const away = fullestSlice(frame, bodies);
+      if (away.some((off) => off !== 0)) this.slicing.jump(away);
+    }
+    // Frames of the slice that was left are still under way.
+    const { origin } = this.slicing.drawn();
+    if (origin.some((value, axis) => Math.abs(value - frame.slice.origin[axis]) > SAME_SLICE)) return false;
+    this.opening = null;
+    const box = sight(frame, bodies, true);
+    if (!box) return true;
+    this.stage.setSight(box);
+    this.seen.copy(box);
+    this.limit.copy(box).expandByScalar(LET_GO * box.getSize(new Vector3()).length());
+    this.left = SETTLING_SECONDS;
+    return true;
+  }
+
+  /** Once a picture: goes with what falls, swings and comes to rest. */
+  settle(seconds: number, frame: Frame, bodies: readonly BodyDescription[]): void {
+    if (this.left <= 0) return;
+    this.left -= seconds;
+    const now = sight(frame, bodies)?.intersect(this.limit);
+    if (!now || now.isEmpty()) return;
+    const share = 1 - Math.exp(-SHRINK_RATE * seconds);
+    this.seen.min.lerp(now.min, share).min(now.min);
+    this.seen.max.lerp(now.max, share).max(now.max);
+    this.stage.see(this.seen, true);
+  }
+}
