@@ -26,7 +26,8 @@ impl<const N: usize> World<N> {
             match gyros.next_if(|gyro| gyro.body == row) {
                 Some(gyro) => {
                     body.angular_momentum = gyro.own_momentum(solved, &self.solver.state, span.dt);
-                    let mut rotation = gyro.world_from_principal * body.inertia.body_from_principal.inverse();
+                    let principal = gyro.at_end(solved, &displacement[N..], span.dt);
+                    let mut rotation = principal * body.inertia.body_from_principal.inverse();
                     rotation.reorthonormalize();
                     body.rotation = rotation;
                 }

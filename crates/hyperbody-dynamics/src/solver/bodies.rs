@@ -118,13 +118,19 @@ impl<const N: usize> SolverBody<N> {
         }
     }
 
+    /// A vector of the world in the solver frame.
+    #[inline]
+    pub(crate) fn in_solver_frame(&self, v: Vector<N>) -> Vector<N> {
+        match &self.frame {
+            Some(frame) => frame.inverse_rotate(v),
+            None => v,
+        }
+    }
+
     /// The scaled arm of direction `d` at offset `r`, both in the world: (r ∧ d) in the solver frame over √I.
     #[inline]
     pub(crate) fn arm(&self, r: Vector<N>, d: Vector<N>) -> [f64; MAX_PLANES] {
-        let (r, d) = match &self.frame {
-            Some(frame) => (frame.inverse_rotate(r), frame.inverse_rotate(d)),
-            None => (r, d),
-        };
+        let (r, d) = (self.in_solver_frame(r), self.in_solver_frame(d));
         let mut arm = [0.0; MAX_PLANES];
         let mut k = 0;
         for i in 0..N {

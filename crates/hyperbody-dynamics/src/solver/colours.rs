@@ -18,6 +18,15 @@ pub(crate) struct ActiveContact {
     pub(crate) body_a: u32,
     pub(crate) body_b: u32,
     pub(crate) points: u8,
+    /// Whether it is one of balls, which have rows of their own.
+    pub(crate) round: bool,
+}
+
+impl ActiveContact {
+    /// Contacts of one class are solved side by side: those with as many points, and those of balls.
+    fn class(&self) -> usize {
+        if self.round { 0 } else { usize::from(self.points) }
+    }
 }
 
 /// Contacts that are solved side by side; unused lanes hold [`Group::EMPTY`].
@@ -42,6 +51,8 @@ pub(crate) struct Colours {
     counting: Counting,
     /// Groups in the order of solving.
     pub(crate) groups: Vec<Group>,
+    /// After how many groups each colour ends. What no colour holds counts as one of its own.
+    pub(crate) ends: Vec<usize>,
 }
 
 impl Colours {
@@ -60,9 +71,9 @@ impl Colours {
         self.order.extend(0..contacts.len() as u32);
         self.counting.sort(&mut self.order, (COLOURS + 1) * (MAX_POINTS + 1), |contact| {
             let colour = usize::from(colour_of[contact as usize]).min(COLOURS);
-            colour * (MAX_POINTS + 1) + MAX_POINTS - usize::from(contacts[contact as usize].points)
+            colour * (MAX_POINTS + 1) + MAX_POINTS - contacts[contact as usize].class()
         });
-        self.pack();
+        self.pack(contacts);
     }
 
     /// Colours the contacts whose bodies both move (`both` true) or only one does; returns the colour after the last.
@@ -104,21 +115,28 @@ impl Colours {
         next.min(COLOURS - 2)
     }
 
-    fn pack(&mut self) {
+    fn pack(&mut self, contacts: &[ActiveContact]) {
         self.groups.clear();
+        self.ends.clear();
         let mut lane = WIDTH;
-        let mut current = OVERFLOW;
+        let mut current = (OVERFLOW, false);
         for &contact in &self.order {
-            let colour = self.colour_of[contact as usize];
-            if lane == WIDTH || colour != current || colour == OVERFLOW {
+            let kind = (self.colour_of[contact as usize], contacts[contact as usize].round);
+            if lane == WIDTH || kind != current || kind.0 == OVERFLOW {
+                if !self.groups.is_empty() && (kind.0 != current.0 || kind.0 == OVERFLOW) {
+                    self.ends.push(self.groups.len());
+                }
                 self.groups.push(Group { contacts: [Group::EMPTY; WIDTH] });
                 lane = 0;
-                current = colour;
+                current = kind;
             }
             if let Some(group) = self.groups.last_mut() {
                 group.contacts[lane] = contact;
             }
             lane += 1;
+        }
+        if !self.groups.is_empty() {
+            self.ends.push(self.groups.len());
         }
     }
 }

@@ -3,6 +3,10 @@
 //! Their angular velocity changes without any torque. At each substep the world-frame momentum, which the rows know
 //! through impulses, turns the attitude by the momentum-keeping splitting of `free_top`, and the change of angular
 //! velocity that comes of it is put into the solver's state beside the impulses.
+//!
+//! A body that turns by less than [`SLOW`] in the step, like all that rests, does so once, at the end: what its angular
+//! velocity would have changed by within the step is less than that share of it. Joints ask for attitudes within the step, so
+//! jointed bodies always go by substeps.
 
 use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
@@ -10,6 +14,9 @@ use super::bodies::{MAX_PLANES, Sizes, SolverBody};
 use super::lanes::Real;
 use crate::body::Body;
 use crate::free_top::free_rotation_step;
+
+/// Turn within a step, at the speed it starts with, up to which a body is turned once, rad.
+const SLOW: f64 = 0.01;
 
 /// An anisotropic body during one step.
 #[derive(Clone, Debug)]
@@ -25,6 +32,8 @@ pub(crate) struct Gyro<const N: usize> {
     torque: Bivector<N>,
     /// The part of the scaled change of angular velocity that no impulse made.
     precession: [Real; MAX_PLANES],
+    /// Whether it turns once, at the end of the step.
+    once: bool,
 }
 
 impl<const N: usize> Gyro<N> {
@@ -34,6 +43,7 @@ impl<const N: usize> Gyro<N> {
         mut moments: Vector<N>,
         body: &Body<N>,
         added_moment: f64,
+        dt: f64,
     ) -> Self {
         let mut momentum_at_start = body.angular_momentum;
         if added_moment > 0.0 {
@@ -41,8 +51,31 @@ impl<const N: usize> Gyro<N> {
             moments = Vector::from_fn(|i| moments[i] + 0.5 * added_moment);
             momentum_at_start += body.angular_velocity * added_moment;
         }
-        let torque = body.torque;
-        Self { body: row, world_from_principal, moments, momentum_at_start, torque, precession: [0.0; MAX_PLANES] }
+        Self {
+            body: row,
+            world_from_principal,
+            moments,
+            momentum_at_start,
+            torque: body.torque,
+            precession: [0.0; MAX_PLANES],
+            once: body.angular_velocity.norm() * dt <= SLOW,
+        }
+    }
+
+    /// Turns with every substep, however slowly.
+    pub(crate) fn keep_up(&mut self) {
+        self.once = false;
+    }
+
+    /// World from principal frame at the end of a step of `dt` seconds. `displacement` is what impulses have turned the body
+    /// by, scaled as in the solver's state.
+    pub(crate) fn at_end(&self, body: &SolverBody<N>, displacement: &[Real], dt: f64) -> Rotation<N> {
+        if !self.once {
+            return self.world_from_principal;
+        }
+        let mut free = self.world_from_principal;
+        free_rotation_step(&mut free, &(self.momentum_at_start + self.torque * (0.5 * dt)), &self.moments, dt);
+        Rotation::exp(&body.unscaled_velocity(displacement)) * free
     }
 
     /// Angular momentum of the body with its own inertia, world frame, at the end of the step.
@@ -76,6 +109,9 @@ impl<const N: usize> Gyro<N> {
 
     /// Turns the attitude through one substep of length `h`; `elapsed` is the time of the step at its end.
     pub(crate) fn turn(&mut self, body: &SolverBody<N>, state: &mut [Real], h: f64, elapsed: f64) {
+        if self.once {
+            return;
+        }
         let momentum = self.momentum(body, state, elapsed);
         free_rotation_step(&mut self.world_from_principal, &momentum, &self.moments, h);
         let local = self.world_from_principal.inverse_rotate_bivector(&momentum);

@@ -19,12 +19,4 @@ impl Lanes {
     pub(crate) const fn splat(value: Real) -> Self {
         Self([value; WIDTH])
     }
-
-    /// [`WIDTH`] numbers.
-    #[inline(always)]
-    pub(crate) fn of(values: &[Real]) -> Self {
-        let mut lanes = [0.0; WIDTH];
-        lanes.copy_from_slice(values);
-        Self(lanes)
-    }
 }

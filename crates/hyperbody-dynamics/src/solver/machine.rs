@@ -34,6 +34,7 @@ pub(crate) trait Machine: Copy {
     /// Lane i of vector j becomes lane j of vector i.
     fn transpose(self, rows: [Self::Vector; WIDTH]) -> [Self::Vector; WIDTH];
 
+    fn load_doubles(self, values: [f64; WIDTH]) -> Self::Doubles;
     fn widen(self, a: Self::Vector) -> Self::Doubles;
     /// Rounded to the nearest.
     fn narrow(self, a: Self::Doubles) -> Self::Vector;
@@ -186,6 +187,11 @@ impl Machine for Plain {
             }
         }
         columns
+    }
+
+    #[inline(always)]
+    fn load_doubles(self, values: [f64; WIDTH]) -> [f64; WIDTH] {
+        values
     }
 
     #[inline(always)]
@@ -371,6 +377,12 @@ mod avx {
                 columns[i + WIDTH / 2] = self.0.avx._mm256_permute2f128_ps::<0x31>(first[i], second[i]);
             }
             columns
+        }
+
+        #[inline(always)]
+        fn load_doubles(self, values: [f64; WIDTH]) -> Self::Doubles {
+            let [a, b, c, d, e, f, g, h] = values;
+            (pulp::cast([a, b, c, d]), pulp::cast([e, f, g, h]))
         }
 
         #[inline(always)]

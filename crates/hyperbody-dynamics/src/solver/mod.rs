@@ -40,7 +40,7 @@ use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
-use contacts::{Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Respond, Solve, WarmStart};
+use contacts::{Arms, Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Respond, Sweep, WarmStart};
 use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
 use lanes::Lanes;
@@ -114,6 +114,7 @@ impl<const N: usize> Solver<N> {
         self.collect_contacts(input);
         self.make_rows(input, h);
         self.joints.collect(input, &self.bodies, &self.gyros, h);
+        self.joints.jointed_gyros().for_each(|gyro| self.gyros[gyro].keep_up());
         self.run_substeps(input, h);
         self.store_impulses(input);
     }
@@ -146,7 +147,7 @@ impl<const N: usize> Solver<N> {
             self.bodies[row].acceleration = shortened(self.bodies[row].acceleration, steepest);
             if let Some(frame) = self.bodies[row].frame {
                 let inertia = &body.inertia;
-                self.gyros.push(Gyro::new(row, frame, inertia.moments, body, added_moment));
+                self.gyros.push(Gyro::new(row, frame, inertia.moments, body, added_moment, input.dt));
             }
             if body.linear_damping > 0.0 || body.angular_damping > 0.0 {
                 let factor = |rate: f64| 1.0 / (1.0 + h * rate);
@@ -185,7 +186,8 @@ impl<const N: usize> Solver<N> {
                 #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
                 let slot = slot as u32;
                 let (body_a, body_b) = (a.solver_index, b.solver_index);
-                self.active.push(ActiveContact { pair: slot, body_a, body_b, points: pair.points });
+                let round = pair.points == 1 && !pair.resists && [a, b].iter().all(|x| x.is_ball || !x.is_moving());
+                self.active.push(ActiveContact { pair: slot, body_a, body_b, points: pair.points, round });
             }
         }
         let bodies = &self.bodies;
@@ -202,10 +204,11 @@ impl<const N: usize> Solver<N> {
         };
         let (bodies, active, pairs) = (&self.bodies, &self.active, &*input.pairs);
         let processor = self.processor;
-        let fill = |block: &Block, rows: &mut [Lanes]| {
+        let fill = |block: &Block, rows: &mut [Lanes], arms: &mut Arms<N>| {
             let mut counts = Lanes::ZERO;
             for (lane, &index) in block.contacts.iter().enumerate() {
                 if index == Group::EMPTY {
+                    arms.clear(lane);
                     continue;
                 }
                 let active = &active[index as usize];
@@ -226,10 +229,16 @@ impl<const N: usize> Solver<N> {
                         &rest_b
                     }
                 };
-                prepare.fill(block, rows, lane, contact, a, b);
+                if block.round {
+                    prepare.fill_round(rows, lane, contact, a, b);
+                } else {
+                    prepare.fill(block, rows, lane, contact, (a, b), arms);
+                }
                 counts.0[lane] = contact.manifold.points().len() as Real;
             }
-            processor.run(Respond::<N> { block, rows, counts });
+            if !block.round {
+                processor.run(Respond::<N> { block, rows, counts, arms });
+            }
         };
         let (blocks, rows) = (self.contacts.blocks.as_slice(), self.contacts.rows.as_mut_slice());
         match input.pool {
@@ -257,7 +266,7 @@ impl<const N: usize> Solver<N> {
                 self.pressed.warm_start::<N>(&mut self.state);
             }
             self.solve_joints(Pass::Move, substep, h);
-            self.solve_contacts(&times);
+            self.solve_contacts(&times, input.pool);
             self.move_bodies(h, h * f64::from(substep + 1));
             times = PassTimes { push: false, ..after_move(times, substep, h) };
             let rows = (&mut self.contacts, self.active.as_slice());
@@ -265,17 +274,17 @@ impl<const N: usize> Solver<N> {
             self.refresh_joints(&Moment::new(substep + 1, substep + 1, h));
             self.warm_start_joints(Pass::Settle, h);
             self.solve_joints(Pass::Settle, substep, h);
-            self.solve_contacts(&times);
+            self.solve_contacts(&times, input.pool);
             if substep + 1 == input.substeps {
                 processor.run(Bounce::<N> { contacts: &mut self.contacts, state: &mut self.state, times: &times });
             }
         }
     }
 
-    fn solve_contacts(&mut self, times: &PassTimes) {
-        let (processor, contacts) = (self.processor, &mut self.contacts);
-        let pass = |state: &mut [Real]| processor.run(Solve::<N> { contacts, state, times });
-        self.pressed.watch::<N>(&mut self.state, pass);
+    fn solve_contacts(&mut self, times: &PassTimes, pool: Option<&rayon::ThreadPool>) {
+        let sweep = Sweep { processor: self.processor, times };
+        let (contacts, ends) = (&mut self.contacts, self.colours.ends.as_slice());
+        self.pressed.watch::<N>(&mut self.state, |state| sweep.run::<N>(contacts, ends, state, pool));
     }
 
     fn refresh_joints(&mut self, moment: &Moment) {
@@ -345,7 +354,7 @@ impl<const N: usize> Solver<N> {
                     contacts::store(block, rows, lane, contact);
                     let (a, b) = (block.bodies_a[lane] as usize, block.bodies_b[lane] as usize);
                     if a != 0 && b != 0 {
-                        let excess = contacts::excess::<N>(rows, lane);
+                        let excess = contacts::excess::<N>(block, rows, lane);
                         let share = contact.share_of_b;
                         add_spin(&self.bodies[a], &mut self.state, a, &(excess * (share - 1.0)));
                         add_spin(&self.bodies[b], &mut self.state, b, &(excess * -share));
@@ -369,7 +378,11 @@ fn add_spin<const N: usize>(body: &SolverBody<N>, state: &mut [Real], row: usize
 const FEW_BLOCKS: usize = 16;
 
 /// Fills the rows of consecutive blocks, halves of them side by side.
-fn fill_blocks(blocks: &[Block], rows: &mut [Lanes], fill: &(impl Fn(&Block, &mut [Lanes]) + Sync)) {
+fn fill_blocks<const N: usize>(
+    blocks: &[Block],
+    rows: &mut [Lanes],
+    fill: &(impl Fn(&Block, &mut [Lanes], &mut Arms<N>) + Sync),
+) {
     if blocks.len() <= FEW_BLOCKS {
         fill_in_turn(blocks, rows, fill);
         return;
@@ -379,14 +392,19 @@ fn fill_blocks(blocks: &[Block], rows: &mut [Lanes], fill: &(impl Fn(&Block, &mu
     rayon::join(|| fill_blocks(first, rows_of_first, fill), || fill_blocks(second, rows_of_second, fill));
 }
 
-fn fill_in_turn(blocks: &[Block], rows: &mut [Lanes], fill: &impl Fn(&Block, &mut [Lanes])) {
+fn fill_in_turn<const N: usize>(
+    blocks: &[Block],
+    rows: &mut [Lanes],
+    fill: &impl Fn(&Block, &mut [Lanes], &mut Arms<N>),
+) {
+    let mut arms = Arms::ZERO;
     let start = blocks.first().map_or(0, |block| block.start);
     for (index, block) in blocks.iter().enumerate() {
         let end = blocks.get(index + 1).map_or(start + rows.len(), |next| next.start);
         let rows = &mut rows[block.start - start..end - start];
         // Zeroed here, where they are written next, for they may be more than the cache holds.
         rows.fill(Lanes::ZERO);
-        fill(block, rows);
+        fill(block, rows, &mut arms);
     }
 }
 

@@ -55,7 +55,6 @@ impl<const N: usize> Turning<N> {
             return;
         }
         for block in &contacts.blocks {
-            let start = block.start + Layout::<N>::points_start(block);
             for (lane, &index) in block.contacts.iter().enumerate().filter(|(_, index)| **index != Group::EMPTY) {
                 let contact = &active[index as usize];
                 let (a, b) = (contact.body_a as usize, contact.body_b as usize);
@@ -70,7 +69,7 @@ impl<const N: usize> Turning<N> {
                     let above = normal * (0.5 * point.separation + held.radii.1);
                     let arc_a = self.arc(a, point.position - below - bodies[a].centre);
                     let arc_b = self.arc(b, point.position + above - bodies[b].centre);
-                    let at = start + k * Layout::<N>::POINT_ROW + Layout::<N>::POINT_ARC;
+                    let at = block.start + Layout::<N>::arc(block, k);
                     contacts.rows[at].0[lane] = (arc_b - arc_a).dot(normal) as Real;
                 }
             }

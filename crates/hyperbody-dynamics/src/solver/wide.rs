@@ -155,6 +155,11 @@ pub(crate) struct Doubles<M: Machine> {
 
 impl<M: Machine> Doubles<M> {
     #[inline(always)]
+    pub(crate) fn of(machine: M, values: [f64; WIDTH]) -> Self {
+        Self { vectors: machine.load_doubles(values), machine }
+    }
+
+    #[inline(always)]
     pub(crate) fn splat(machine: M, value: Real) -> Self {
         Wide::splat(machine, value).doubles()
     }

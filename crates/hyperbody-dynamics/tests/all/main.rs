@@ -1,5 +1,6 @@
 //! Every integration test of hyperbody-dynamics in one program: engine code generic in the dimension is compiled once for all of them.
 
+mod allocations;
 mod bullets;
 mod common;
 mod contact_table;
@@ -23,6 +24,7 @@ mod queries_limits;
 mod queries_shapes;
 mod random_operations;
 mod robustness;
+mod round_contacts;
 mod seams;
 mod snapshot;
 mod snapshot_bytes;

@@ -228,6 +228,37 @@ fn threads_do_not_change_a_bit() {
     assert_eq!(one, hash(5), "five threads");
 }
 
+/// So many contacts that each colour of them is shared among the threads.
+#[test]
+fn threads_do_not_change_a_bit_of_a_large_pile() {
+    fn hash<const N: usize>(threads: usize, across: u32, layers: u32) -> Vec<u64> {
+        let mut world = World::<N>::new(WorldDef { threads, ..WorldDef::default() }).unwrap();
+        add_floor(&mut world, material(0.5, 0.2));
+        for k in 0..across.pow(N as u32 - 1) * layers {
+            let mut rest = k;
+            let mut position = Vector::ZERO;
+            for axis in (0..N).filter(|&axis| axis != 1) {
+                position[axis] = f64::from(rest % across) * 1.01 + 0.1 * f64::from(k % 3);
+                rest /= across;
+            }
+            position[1] = 0.5 + f64::from(rest);
+            let shape = if k % 2 == 0 { ball(0.5) } else { cuboid(Vector::splat(0.5)) };
+            world.add_body(BodyDef::new(shape).position(position)).unwrap();
+        }
+        (0..4)
+            .map(|_| {
+                run(&mut world, 0.1);
+                world.state_hash()
+            })
+            .collect()
+    }
+    let one = (hash::<2>(1, 60, 20), hash::<3>(1, 12, 8));
+    for threads in [2, 3] {
+        assert_eq!(one.0, hash::<2>(threads, 60, 20), "{threads} threads, 2D");
+        assert_eq!(one.1, hash::<3>(threads, 12, 8), "{threads} threads, 3D");
+    }
+}
+
 /// A body whose state turns non-finite is put aside and reported; the rest goes on.
 #[test]
 fn a_body_gone_wrong_is_quarantined() {

@@ -10,9 +10,10 @@
 
 use hyperbody_math::{Bivector, planes};
 
-use super::Layout;
 use super::pairing::Pairing;
+use super::round::RoundLayout;
 use super::solve::{PassTimes, Passes};
+use super::{Block, Layout};
 use crate::solver::lanes::Lanes;
 use crate::solver::machine::Machine;
 use crate::solver::wide::Wide;
@@ -45,19 +46,38 @@ impl<const N: usize, M: Machine> Passes<N, M> {
         p: &Pairing<N, M>,
         times: &PassTimes,
     ) {
-        let machine = p.machine;
-        let (moved, moved_sq) = (Wide::splat(machine, times.moved), Wide::splat(machine, times.moved_sq));
-        let mut between = p.between_centres();
-        let mut impulse = Self::impulse(machine, head, points);
-        for i in 0..N {
-            between[i] += moved * head[Layout::<N>::CENTRE_VELOCITY + i];
-            between[i] += moved_sq * head[Layout::<N>::CENTRE_ACCELERATION + i];
-            impulse[i] -= before[i];
+        let mut impulse = Self::impulse(p.machine, head, points);
+        for (whole, before) in impulse.iter_mut().zip(before) {
+            *whole -= *before;
         }
-        let mut k = Layout::<N>::EXCESS;
+        let (motion, excess) = head.split_at_mut(Layout::<N>::EXCESS);
+        let velocity = &motion[Layout::<N>::CENTRE_VELOCITY..];
+        let acceleration = &motion[Layout::<N>::CENTRE_ACCELERATION..];
+        p.note_excess(excess, &impulse, (velocity, acceleration), times);
+    }
+}
+
+impl<const N: usize, M: Machine> Pairing<N, M> {
+    /// Adds what an impulse on b adds to the angular momentum, by which the bodies have moved on. `velocity` and
+    /// `acceleration` are the base motion of b's centre against a's.
+    #[inline(always)]
+    pub(super) fn note_excess(
+        &self,
+        excess: &mut [Lanes],
+        impulse: &[Wide<M>; N],
+        (velocity, acceleration): (&[Lanes], &[Lanes]),
+        times: &PassTimes,
+    ) {
+        let (moved, moved_sq) = (Wide::splat(self.machine, times.moved), Wide::splat(self.machine, times.moved_sq));
+        let mut between = self.between_centres();
+        for i in 0..N {
+            between[i] += moved * velocity[i];
+            between[i] += moved_sq * acceleration[i];
+        }
+        let mut k = 0;
         for i in 0..N {
             for j in i + 1..N {
-                head[k] = (head[k].on(machine) + (between[i] * impulse[j] - between[j] * impulse[i])).lanes();
+                excess[k] = (excess[k].on(self.machine) + (between[i] * impulse[j] - between[j] * impulse[i])).lanes();
                 k += 1;
             }
         }
@@ -65,10 +85,11 @@ impl<const N: usize, M: Machine> Passes<N, M> {
 }
 
 /// What a contact has added to the angular momentum of its two bodies in the step, kg·m²/s. `rows` are those of its block.
-pub(crate) fn excess<const N: usize>(rows: &[Lanes], lane: usize) -> Bivector<N> {
+pub(crate) fn excess<const N: usize>(block: &Block, rows: &[Lanes], lane: usize) -> Bivector<N> {
+    let start = if block.round { RoundLayout::<N>::EXCESS } else { Layout::<N>::EXCESS };
     let mut sum = Bivector::ZERO;
     for (k, (i, j)) in planes::all(N).enumerate() {
-        sum.set(i, j, f64::from(rows[Layout::<N>::EXCESS + k].0[lane]));
+        sum.set(i, j, f64::from(rows[start + k].0[lane]));
     }
     sum
 }

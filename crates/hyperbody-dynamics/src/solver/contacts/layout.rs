@@ -1,6 +1,7 @@
 //! Where each number of a block stands. All positions are constants of the dimension.
 
 use super::Block;
+use super::round::RoundLayout;
 use crate::solver::bodies::Sizes;
 
 /// Positions, in lanes, inside a block: header, sliding rows, their mass matrix, twisting rows, the field of the normal
@@ -14,7 +15,7 @@ impl<const N: usize> Layout<N> {
     /// Planes of the tangent space.
     pub(crate) const TWISTS: usize = (N - 1) * (N - 2) / 2;
 
-    // Header.
+    // Header: coefficients first.
     pub(crate) const INVERSE_SQRT_MASS_A: usize = 0;
     pub(crate) const INVERSE_SQRT_MASS_B: usize = 1;
     pub(crate) const FRICTION: usize = 2;
@@ -23,6 +24,7 @@ impl<const N: usize> Layout<N> {
     /// γ of a soft row, and what rigid rows have in its place; 1/kg.
     pub(crate) const SOFTNESS: usize = 5;
     pub(crate) const STIFFENER: usize = 6;
+    pub(crate) const COEFFICIENTS: usize = 7;
     pub(crate) const TWIST_MASS: usize = 7;
     pub(crate) const NORMAL: usize = 8;
     /// Velocity of b's centre against a's at the start of the step, and acceleration.
@@ -44,8 +46,7 @@ impl<const N: usize> Layout<N> {
     pub(crate) const SLIDE_MASS_LEN: usize = Self::SLIDES * (Self::SLIDES + 1) / 2;
 
     pub(crate) const TWIST_ROWS: usize = Self::SLIDE_MASS + Self::SLIDE_MASS_LEN;
-    // A twisting row: arms, base velocity and acceleration, impulse.
-    pub(crate) const TWIST_ARM_A: usize = 0;
+    // A twisting row: arms, which come first, base velocity and acceleration, impulse.
     pub(crate) const TWIST_VELOCITY: usize = 2 * Self::K;
     pub(crate) const TWIST_ACCELERATION: usize = 2 * Self::K + 1;
     pub(crate) const TWIST_IMPULSE: usize = 2 * Self::K + 2;
@@ -104,9 +105,21 @@ impl<const N: usize> Layout<N> {
         Self::response_start(block) + block.points * (block.points + 1) / 2
     }
 
+    /// Where what turning adds to the gap of a point stands.
+    #[inline]
+    pub(crate) fn arc(block: &Block, point: usize) -> usize {
+        if block.round {
+            return RoundLayout::<N>::ARC;
+        }
+        Self::points_start(block) + point * Self::POINT_ROW + Self::POINT_ARC
+    }
+
     /// Lanes of a whole block.
     #[inline(always)]
     pub(crate) fn block_len(block: &Block) -> usize {
+        if block.round {
+            return RoundLayout::<N>::LEN;
+        }
         Self::resistance_start(block) + if block.resists { Self::RESISTANCE_LEN } else { 0 }
     }
 }

@@ -9,23 +9,28 @@
 //!
 //! The rows of a group are lanes side by side in one flat array, in the order in which solving reads them.
 
+mod arms;
 mod excess;
 mod layout;
 mod normal;
 mod pairing;
 mod prepare;
 mod response;
+mod round;
 mod solve;
+mod sweep;
 
 use super::bodies::SolverBody;
 use super::colours::{ActiveContact, Group};
 use super::lanes::{Lanes, WIDTH};
 use crate::pairs::Surface;
+pub(crate) use arms::Arms;
 pub(crate) use excess::excess;
 pub(crate) use layout::Layout;
 pub(crate) use prepare::{Prepare, store};
 pub(crate) use response::Respond;
-pub(crate) use solve::{Bounce, PassTimes, Solve, WarmStart};
+pub(crate) use solve::{Bounce, PassTimes, WarmStart};
+pub(crate) use sweep::Sweep;
 
 /// One group of contacts and where its rows are.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +45,8 @@ pub(crate) struct Block {
     pub(crate) bounces: bool,
     /// Whether any of its contacts resists rolling or twisting.
     pub(crate) resists: bool,
+    /// Whether all of its contacts are those of balls, with rows of their own (`round`).
+    pub(crate) round: bool,
     pub(crate) bodies_a: [u32; WIDTH],
     pub(crate) bodies_b: [u32; WIDTH],
     /// Active contacts, [`Group::EMPTY`] in unused lanes.
@@ -53,6 +60,8 @@ pub(crate) struct ContactRows {
     pub(crate) rows: Vec<Lanes>,
     /// Room for the problem of one block.
     problem: Box<normal::NormalProblem>,
+    /// Room for states that threads put aside.
+    put: Vec<Lanes>,
 }
 
 impl ContactRows {
@@ -73,6 +82,7 @@ impl ContactRows {
                 twists: 0,
                 bounces: false,
                 resists: false,
+                round: false,
                 bodies_a: [0; WIDTH],
                 bodies_b: [0; WIDTH],
                 contacts: group.contacts,
@@ -86,6 +96,7 @@ impl ContactRows {
                 let surface = surface(contact.pair);
                 block.bounces |= surface.bounces;
                 block.resists |= surface.resists;
+                block.round |= contact.round;
                 block.bodies_a[lane] = writable(bodies, contact.body_a);
                 block.bodies_b[lane] = writable(bodies, contact.body_b);
             }

@@ -20,15 +20,68 @@ pub(super) struct Pairing<const N: usize, M: Machine> {
 /// Which part of the state is measured: where it starts.
 type Part = usize;
 
+/// Where the states of bodies are read, and where they are put.
+pub(crate) enum States<'a> {
+    InPlace(&'a mut [Real]),
+    /// Read here, as other threads do, and put aside in the order of blocks; see [`put_in_place`].
+    Aside {
+        read: &'a [Real],
+        put: std::slice::IterMut<'a, Lanes>,
+    },
+}
+
+impl States<'_> {
+    #[inline(always)]
+    pub(super) fn read(&self) -> &[Real] {
+        match self {
+            Self::InPlace(state) => state,
+            Self::Aside { read, .. } => read,
+        }
+    }
+}
+
+/// Vectors that a block puts aside.
+pub(super) const fn put_len<const N: usize>() -> usize {
+    2 * WIDTH * Sizes::<N>::VELOCITY.div_ceil(WIDTH)
+}
+
+/// Puts the states of some blocks in place that were put aside.
+pub(super) fn put_in_place<const N: usize>(blocks: &[Block], put: &[Lanes], state: &mut [Real]) {
+    let (vectors, _) = state.as_chunks_mut::<WIDTH>();
+    let mut put = put.iter();
+    for block in blocks {
+        for bodies in [&block.bodies_a, &block.bodies_b] {
+            for at in (0..Sizes::<N>::VELOCITY).step_by(WIDTH) {
+                for (body, lanes) in bodies.iter().zip(&mut put) {
+                    vectors[vector::<N>(*body, at)] = lanes.0;
+                }
+            }
+        }
+    }
+    state[..Sizes::<N>::VELOCITY].fill(0.0);
+}
+
+/// Which vector of the state holds number `at` of a body.
+#[inline(always)]
+fn vector<const N: usize>(body: u32, at: usize) -> usize {
+    body as usize * (Sizes::<N>::STATE / WIDTH) + at / WIDTH
+}
+
 impl<const N: usize, M: Machine> Pairing<N, M> {
     const VELOCITY: Part = 0;
     const DISPLACEMENT: Part = Sizes::<N>::VELOCITY;
 
     #[inline(always)]
     pub(super) fn gather(machine: M, block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
+        Self::gather_part(machine, block, rows, state, Sizes::<N>::STATE)
+    }
+
+    /// Gathers the first `count` numbers of the states, and what else is in their vectors.
+    #[inline(always)]
+    pub(super) fn gather_part(machine: M, block: &Block, rows: &[Lanes], state: &[Real], count: usize) -> Self {
         Self {
-            a: Self::gather_side(machine, &block.bodies_a, state),
-            b: Self::gather_side(machine, &block.bodies_b, state),
+            a: Self::gather_side(machine, &block.bodies_a, state, count),
+            b: Self::gather_side(machine, &block.bodies_b, state, count),
             mass_a: rows[Layout::<N>::INVERSE_SQRT_MASS_A].on(machine),
             mass_b: rows[Layout::<N>::INVERSE_SQRT_MASS_B].on(machine),
             machine,
@@ -36,13 +89,13 @@ impl<const N: usize, M: Machine> Pairing<N, M> {
     }
 
     #[inline(always)]
-    fn gather_side(machine: M, bodies: &[u32; WIDTH], state: &[Real]) -> [Wide<M>; MAX_STATE] {
+    fn gather_side(machine: M, bodies: &[u32; WIDTH], state: &[Real], count: usize) -> [Wide<M>; MAX_STATE] {
         let mut gathered = [Wide::zero(machine); MAX_STATE];
-        for at in (0..Sizes::<N>::STATE).step_by(WIDTH) {
+        let (vectors, _) = state.as_chunks::<WIDTH>();
+        for at in (0..count).step_by(WIDTH) {
             let mut rows = [Wide::zero(machine); WIDTH];
             for (row, body) in rows.iter_mut().zip(bodies) {
-                let start = *body as usize * Sizes::<N>::STATE + at;
-                *row = Lanes::of(&state[start..start + WIDTH]).on(machine);
+                *row = Lanes(vectors[vector::<N>(*body, at)]).on(machine);
             }
             gathered[at..at + WIDTH].copy_from_slice(&transpose(machine, &rows));
         }
@@ -50,22 +103,35 @@ impl<const N: usize, M: Machine> Pairing<N, M> {
     }
 
     #[inline(always)]
-    pub(super) fn scatter(&self, block: &Block, state: &mut [Real]) {
-        Self::scatter_side(&self.a, &block.bodies_a, state);
-        Self::scatter_side(&self.b, &block.bodies_b, state);
-        // Row 0 stands for all bodies that no impulse moves; infinite impulses must not make it anything but zero.
-        state[..Sizes::<N>::VELOCITY].fill(0.0);
+    pub(super) fn scatter(&self, block: &Block, states: &mut States<'_>) {
+        Self::scatter_side(&self.a, &block.bodies_a, states);
+        Self::scatter_side(&self.b, &block.bodies_b, states);
+        if let States::InPlace(state) = states {
+            // Row 0 stands for all bodies that no impulse moves; infinite impulses must not make it anything but zero.
+            state[..Sizes::<N>::VELOCITY].fill(0.0);
+        }
     }
 
     /// Displacements that share a vector with velocities are put back as they were.
     #[inline(always)]
-    fn scatter_side(values: &[Wide<M>; MAX_STATE], bodies: &[u32; WIDTH], state: &mut [Real]) {
+    fn scatter_side(values: &[Wide<M>; MAX_STATE], bodies: &[u32; WIDTH], states: &mut States<'_>) {
         for at in (0..Sizes::<N>::VELOCITY).step_by(WIDTH) {
             let mut columns = [values[at]; WIDTH];
             columns.copy_from_slice(&values[at..at + WIDTH]);
-            for (body, row) in bodies.iter().zip(transpose(columns[0].machine(), &columns)) {
-                let start = *body as usize * Sizes::<N>::STATE + at;
-                state[start..start + WIDTH].copy_from_slice(&row.lanes().0);
+            let rows = transpose(columns[0].machine(), &columns);
+            match states {
+                States::InPlace(state) => {
+                    let (vectors, _) = state.as_chunks_mut::<WIDTH>();
+                    for (body, row) in bodies.iter().zip(rows) {
+                        vectors[vector::<N>(*body, at)] = row.lanes().0;
+                    }
+                }
+                States::Aside { put, .. } => {
+                    // The rows end first: nothing is taken from `put` in vain.
+                    for (row, lanes) in rows.into_iter().zip(put) {
+                        *lanes = row.lanes();
+                    }
+                }
             }
         }
     }
@@ -117,12 +183,64 @@ impl<const N: usize, M: Machine> Pairing<N, M> {
     /// What b's centre has been displaced by against a's.
     #[inline(always)]
     pub(super) fn between_centres(&self) -> [Wide<M>; N] {
+        self.centres(Self::DISPLACEMENT)
+    }
+
+    /// What impulses have changed of the velocity of b's centre against a's.
+    #[inline(always)]
+    pub(super) fn velocity_between_centres(&self) -> [Wide<M>; N] {
+        self.centres(Self::VELOCITY)
+    }
+
+    #[inline(always)]
+    fn centres(&self, part: Part) -> [Wide<M>; N] {
         let mut between = [Wide::zero(self.machine); N];
         for (i, value) in between.iter_mut().enumerate() {
-            let at = Self::DISPLACEMENT + i;
-            *value = self.b[at] * self.mass_b - self.a[at] * self.mass_a;
+            *value = self.b[part + i] * self.mass_b - self.a[part + i] * self.mass_a;
         }
         between
+    }
+
+    /// What spins change of the velocity of b against a at a point that lies from both centres along `direction`, by the
+    /// scaled distances `arm_a` and `arm_b`.
+    #[inline(always)]
+    pub(super) fn turning(&self, direction: &[Wide<M>; N], arm_a: Lanes, arm_b: Lanes) -> [Wide<M>; N] {
+        let (arm_a, arm_b) = (arm_a.on(self.machine), arm_b.on(self.machine));
+        let mut velocity = [Wide::zero(self.machine); N];
+        let mut k = N;
+        for i in 0..N {
+            for j in i + 1..N {
+                let spin = self.b[k] * arm_b - self.a[k] * arm_a;
+                velocity[j] += spin * direction[i];
+                velocity[i] -= spin * direction[j];
+                k += 1;
+            }
+        }
+        velocity
+    }
+
+    /// Applies an impulse on b to the velocities of both centres.
+    #[inline(always)]
+    pub(super) fn push(&mut self, impulse: &[Wide<M>; N]) {
+        for (i, impulse) in impulse.iter().enumerate() {
+            self.a[i] -= *impulse * self.mass_a;
+            self.b[i] += *impulse * self.mass_b;
+        }
+    }
+
+    /// Applies an impulse on b to the spins of both bodies: the counterpart of [`Pairing::turning`].
+    #[inline(always)]
+    pub(super) fn spin(&mut self, direction: &[Wide<M>; N], impulse: &[Wide<M>; N], arm_a: Lanes, arm_b: Lanes) {
+        let (arm_a, arm_b) = (arm_a.on(self.machine), arm_b.on(self.machine));
+        let mut k = N;
+        for i in 0..N {
+            for j in i + 1..N {
+                let wedge = direction[i] * impulse[j] - direction[j] * impulse[i];
+                self.a[k] -= wedge * arm_a;
+                self.b[k] += wedge * arm_b;
+                k += 1;
+            }
+        }
     }
 
     #[inline(always)]

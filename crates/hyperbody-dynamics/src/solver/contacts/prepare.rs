@@ -2,10 +2,11 @@
 
 use hyperbody_math::{Bivector, Vector};
 
-use super::{Block, Layout};
+use super::arms::Arms;
+use super::{Block, Layout, round};
 use crate::pairs::Contact;
-use crate::solver::bodies::{MAX_PLANES, Sizes, SolverBody};
-use crate::solver::lanes::{Lanes, Real};
+use crate::solver::bodies::SolverBody;
+use crate::solver::lanes::{Lanes, Real, WIDTH};
 use crate::solver::softness::Softness;
 
 /// What preparing needs of the step.
@@ -23,46 +24,55 @@ pub(crate) struct Prepare {
 const RIGID_SHARE: f64 = 1e-4;
 
 /// One contact while its lane is filled.
-struct Lane<'a, const N: usize> {
-    rows: &'a mut [Lanes],
-    lane: usize,
-    a: &'a SolverBody<N>,
-    b: &'a SolverBody<N>,
+pub(super) struct Lane<'a, const N: usize> {
+    pub(super) rows: &'a mut [Lanes],
+    pub(super) lane: usize,
+    pub(super) a: &'a SolverBody<N>,
+    pub(super) b: &'a SolverBody<N>,
 }
 
 /// Offsets of a point from both centres of mass, world axes.
 #[derive(Clone, Copy)]
-struct Offsets<const N: usize> {
-    a: Vector<N>,
-    b: Vector<N>,
+pub(super) struct Offsets<const N: usize> {
+    pub(super) a: Vector<N>,
+    pub(super) b: Vector<N>,
 }
 
 impl Prepare {
-    /// Fills one lane of a block from a contact's manifold and warm start.
+    pub(super) fn softness<const N: usize>(&self, a: &SolverBody<N>, b: &SolverBody<N>) -> &Softness {
+        let both_move = a.inverse_sqrt_mass > 0.0 && b.inverse_sqrt_mass > 0.0;
+        if both_move { &self.soft } else { &self.stiff }
+    }
+
+    /// Fills one lane of a block from a contact's manifold and warm start, all but its arms, which [`super::Respond`] makes of
+    /// what is noted in `arms`.
     pub(crate) fn fill<const N: usize>(
         &self,
         block: &Block,
         rows: &mut [Lanes],
         lane: usize,
         contact: &Contact<N>,
-        a: &SolverBody<N>,
-        b: &SolverBody<N>,
+        (a, b): (&SolverBody<N>, &SolverBody<N>),
+        arms: &mut Arms<N>,
     ) {
         let mut lane = Lane { rows, lane, a, b };
-        let both_move = a.inverse_sqrt_mass > 0.0 && b.inverse_sqrt_mass > 0.0;
-        lane.header(contact, if both_move { &self.soft } else { &self.stiff });
+        lane.coefficients(contact, self.softness(a, b));
+        lane.centres(contact);
         let points = contact.manifold.points();
         let mut centre = Vector::ZERO;
         for point in points {
             centre += point.position * (1.0 / points.len() as f64);
         }
         let tangents = contact.manifold.normal.orthonormal_complement();
-        let motion = lane.base_motion(lane.offsets(centre));
-        lane.sliding(contact, centre, &tangents, motion);
+        let r = lane.offsets(centre);
+        let motion = lane.base_motion(r);
+        arms.a.fill(lane.lane, a, r.a, contact.manifold.normal, &tangents);
+        arms.b.fill(lane.lane, b, r.b, contact.manifold.normal, &tangents);
+        lane.sliding(contact, &tangents, motion);
         if block.twists > 0 {
             lane.twisting(contact, &tangents);
         }
-        lane.field(contact, centre, &tangents, motion, block);
+        lane.field(contact, &tangents, motion, block);
         lane.points(contact, centre, &tangents, block);
         if block.resists {
             lane.resistance(contact, &tangents, block);
@@ -71,34 +81,34 @@ impl Prepare {
 }
 
 impl<const N: usize> Lane<'_, N> {
-    fn set(&mut self, position: usize, value: f64) {
-        self.rows[position].0[self.lane] = value as Real;
+    pub(super) fn set(&mut self, position: usize, value: f64) {
+        // The remainder spares the check of the lane.
+        self.rows[position].0[self.lane % WIDTH] = value as Real;
     }
 
-    fn set_arms(&mut self, position: usize, a: &[f64; MAX_PLANES], b: &[f64; MAX_PLANES]) {
-        for k in 0..Sizes::<N>::K {
-            self.set(position + k, a[k]);
-            self.set(position + Sizes::<N>::K + k, b[k]);
+    pub(super) fn set_vector(&mut self, position: usize, value: Vector<N>) {
+        for i in 0..N {
+            self.set(position + i, value[i]);
         }
     }
 
-    fn offsets(&self, point: Vector<N>) -> Offsets<N> {
+    pub(super) fn offsets(&self, point: Vector<N>) -> Offsets<N> {
         Offsets { a: point - self.a.centre, b: point - self.b.centre }
     }
 
     /// Relative base velocity and acceleration of b against a at a point.
-    fn base_motion(&self, r: Offsets<N>) -> (Vector<N>, Vector<N>) {
+    pub(super) fn base_motion(&self, r: Offsets<N>) -> (Vector<N>, Vector<N>) {
         (
             self.b.base_velocity_at(r.b) - self.a.base_velocity_at(r.a),
             self.b.base_acceleration_at(r.b) - self.a.base_acceleration_at(r.a),
         )
     }
 
-    fn inverse_mass_sum(&self) -> f64 {
+    pub(super) fn inverse_mass_sum(&self) -> f64 {
         self.a.inverse_sqrt_mass * self.a.inverse_sqrt_mass + self.b.inverse_sqrt_mass * self.b.inverse_sqrt_mass
     }
 
-    fn header(&mut self, contact: &Contact<N>, softness: &Softness) {
+    pub(super) fn coefficients(&mut self, contact: &Contact<N>, softness: &Softness) {
         self.set(Layout::<N>::INVERSE_SQRT_MASS_A, self.a.inverse_sqrt_mass);
         self.set(Layout::<N>::INVERSE_SQRT_MASS_B, self.b.inverse_sqrt_mass);
         self.set(Layout::<N>::FRICTION, contact.friction);
@@ -109,29 +119,26 @@ impl<const N: usize> Lane<'_, N> {
         let softness_share = (softness.impulse_scale / softness.mass_scale).max(RIGID_SHARE);
         self.set(Layout::<N>::SOFTNESS, share * softness_share);
         self.set(Layout::<N>::STIFFENER, share * RIGID_SHARE);
-        for i in 0..N {
-            self.set(Layout::<N>::NORMAL + i, contact.manifold.normal[i]);
-            self.set(Layout::<N>::CENTRE_VELOCITY + i, self.b.velocity[i] - self.a.velocity[i]);
-            self.set(Layout::<N>::CENTRE_ACCELERATION + i, self.b.acceleration[i] - self.a.acceleration[i]);
-        }
+    }
+
+    /// The normal, and how the centres move against each other.
+    fn centres(&mut self, contact: &Contact<N>) {
+        self.set_vector(Layout::<N>::NORMAL, contact.manifold.normal);
+        self.set_vector(Layout::<N>::CENTRE_VELOCITY, self.b.velocity - self.a.velocity);
+        self.set_vector(Layout::<N>::CENTRE_ACCELERATION, self.b.acceleration - self.a.acceleration);
     }
 
     fn sliding(
         &mut self,
         contact: &Contact<N>,
-        centre: Vector<N>,
         tangents: &[Vector<N>; N],
         (velocity, acceleration): (Vector<N>, Vector<N>),
     ) {
-        let r = self.offsets(centre);
         let velocity = velocity + self.b.surface - self.a.surface + contact.surface;
         for t in 0..Layout::<N>::SLIDES {
             let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
             let tangent = tangents[t];
-            for i in 0..N {
-                self.set(at + i, tangent[i]);
-            }
-            self.set_arms(at + Layout::<N>::SLIDE_ARM_A, &self.a.arm(r.a, tangent), &self.b.arm(r.b, tangent));
+            self.set_vector(at, tangent);
             self.set(at + Layout::<N>::SLIDE_VELOCITY, velocity.dot(tangent));
             self.set(at + Layout::<N>::SLIDE_ACCELERATION, acceleration.dot(tangent));
             self.set(at + Layout::<N>::SLIDE_IMPULSE, contact.friction_impulse.dot(tangent));
@@ -147,8 +154,6 @@ impl<const N: usize> Lane<'_, N> {
             for t in s + 1..Layout::<N>::SLIDES {
                 let at = Layout::<N>::TWIST_ROWS + row * Layout::<N>::TWIST_ROW;
                 let plane = Bivector::wedge(tangents[s], tangents[t]);
-                let arms = (self.a.arm(tangents[s], tangents[t]), self.b.arm(tangents[s], tangents[t]));
-                self.set_arms(at + Layout::<N>::TWIST_ARM_A, &arms.0, &arms.1);
                 self.set(at + Layout::<N>::TWIST_VELOCITY, spin.dot(&plane));
                 self.set(at + Layout::<N>::TWIST_ACCELERATION, spin_up.dot(&plane));
                 self.set(at + Layout::<N>::TWIST_IMPULSE, contact.twist_impulse.dot(&plane));
@@ -172,18 +177,15 @@ impl<const N: usize> Lane<'_, N> {
     fn field(
         &mut self,
         contact: &Contact<N>,
-        centre: Vector<N>,
         tangents: &[Vector<N>; N],
         (mut velocity, acceleration): (Vector<N>, Vector<N>),
         block: &Block,
     ) {
         let normal = contact.manifold.normal;
-        let r = self.offsets(centre);
         if contact.surface != Vector::ZERO {
             velocity += contact.surface;
         }
         let start = Layout::<N>::field_start(block);
-        self.set_arms(start, &self.a.arm(r.a, normal), &self.b.arm(r.b, normal));
         self.set(start + Layout::<N>::FIELD_VELOCITY, velocity.dot(normal));
         self.set(start + Layout::<N>::FIELD_ACCELERATION, acceleration.dot(normal));
         let spin = self.b.angular_velocity - self.a.angular_velocity;
@@ -191,7 +193,6 @@ impl<const N: usize> Lane<'_, N> {
         for t in 1..Layout::<N>::field_rows(block) {
             let at = start + t * Layout::<N>::FIELD_ROW;
             let tangent = tangents[t - 1];
-            self.set_arms(at, &self.a.arm(tangent, normal), &self.b.arm(tangent, normal));
             self.set(at + Layout::<N>::FIELD_VELOCITY, spin.act_on(tangent).dot(normal));
             self.set(at + Layout::<N>::FIELD_ACCELERATION, spin_up.act_on(tangent).dot(normal));
         }
@@ -212,12 +213,16 @@ impl<const N: usize> Lane<'_, N> {
 
 /// Stores the impulses of one lane in its contact, to warm-start the next step.
 pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, contact: &mut Contact<N>) {
-    let tangents = contact.manifold.normal.orthonormal_complement();
+    if block.round {
+        return round::store(rows, lane, contact);
+    }
     let value = |position: usize| f64::from(rows[position].0[lane]);
+    let mut tangents = [Vector::ZERO; N];
     contact.friction_impulse = Vector::ZERO;
-    for (t, &tangent) in tangents.iter().enumerate().take(Layout::<N>::SLIDES) {
-        let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW + Layout::<N>::SLIDE_IMPULSE;
-        contact.friction_impulse += tangent * value(at);
+    for (t, tangent) in tangents.iter_mut().enumerate().take(Layout::<N>::SLIDES) {
+        let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
+        *tangent = Vector::from_fn(|i| value(at + i));
+        contact.friction_impulse += *tangent * value(at + Layout::<N>::SLIDE_IMPULSE);
     }
     contact.twist_impulse = Bivector::ZERO;
     if block.twists > 0 {

@@ -1,8 +1,9 @@
-//! How the rows of a block respond to impulses, from the arms that stand in it: all contacts of a block at once.
+//! The arms of a block's rows, and how these respond to impulses: all contacts of a block at once.
 //!
 //! In double precision, rounded at the end: in single precision the sums would differ by some roundings from what the rows do
 //! when they are applied, and a scene that is turned, or placed in more dimensions, would depart ten times as fast.
 
+use super::arms::Arms;
 use super::normal::upper;
 use super::{Block, Layout};
 use crate::solver::bodies::Sizes;
@@ -10,18 +11,20 @@ use crate::solver::lanes::{Lanes, Real};
 use crate::solver::machine::{Machine, Pass};
 use crate::solver::wide::{Doubles, Wide};
 
-/// Completes a block whose lanes are filled: effective masses of friction, and the responses of its points to each other.
+/// Completes a block whose lanes are filled: arms, effective masses of friction, and the responses of its points to each other.
 pub(crate) struct Respond<'a, const N: usize> {
     pub(crate) block: &'a Block,
     pub(crate) rows: &'a mut [Lanes],
     /// Points of each contact.
     pub(crate) counts: Lanes,
+    pub(crate) arms: &'a Arms<N>,
 }
 
 impl<const N: usize> Pass for Respond<'_, N> {
     #[inline(always)]
     fn run<M: Machine>(self, machine: M) {
-        let Self { block, rows, counts } = self;
+        let Self { block, rows, counts, arms } = self;
+        arms.write(machine, block, rows);
         let a = rows[Layout::<N>::INVERSE_SQRT_MASS_A].on(machine).doubles();
         let b = rows[Layout::<N>::INVERSE_SQRT_MASS_B].on(machine).doubles();
         let inverse_mass = a * a + b * b;

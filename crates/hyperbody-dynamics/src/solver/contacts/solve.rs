@@ -3,7 +3,8 @@
 use std::marker::PhantomData;
 
 use super::normal::{NormalProblem, upper};
-use super::pairing::Pairing;
+use super::pairing::{Pairing, States};
+use super::round::RoundPasses;
 use super::{Block, ContactRows, Layout};
 use crate::solver::bodies::Sizes;
 use crate::solver::lanes::{Lanes, Real};
@@ -38,10 +39,13 @@ pub(crate) struct WarmStart<'a, const N: usize> {
     pub(crate) state: &'a mut [Real],
 }
 
-/// One Gauss–Seidel sweep over all manifolds.
+/// One Gauss–Seidel sweep over the manifolds of some blocks.
 pub(crate) struct Solve<'a, const N: usize> {
-    pub(crate) contacts: &'a mut ContactRows,
-    pub(crate) state: &'a mut [Real],
+    pub(crate) blocks: &'a [Block],
+    /// Of these blocks.
+    pub(crate) rows: &'a mut [Lanes],
+    pub(super) problem: &'a mut NormalProblem,
+    pub(super) states: States<'a>,
     pub(crate) times: &'a PassTimes,
 }
 
@@ -62,7 +66,7 @@ impl<const N: usize> Pass for WarmStart<'_, N> {
 impl<const N: usize> Pass for Solve<'_, N> {
     #[inline(always)]
     fn run<M: Machine>(self, machine: M) {
-        Passes::<N, M>::solve(machine, self.contacts, self.state, self.times);
+        Passes::<N, M>::solve(machine, self);
     }
 }
 
@@ -81,9 +85,14 @@ impl<const N: usize, M: Machine> Passes<N, M> {
 
     #[inline(always)]
     fn warm_start(machine: M, contacts: &mut ContactRows, state: &mut [Real]) {
+        let mut states = States::InPlace(state);
         for block in &contacts.blocks {
             let rows = &contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
-            let mut p = Pairing::<N, M>::gather(machine, block, rows, state);
+            if block.round {
+                RoundPasses::<N, M>::warm_start(machine, block, rows, &mut states);
+                continue;
+            }
+            let mut p = Pairing::<N, M>::gather(machine, block, rows, states.read());
             for row in rows[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact(Layout::<N>::SLIDE_ROW) {
                 let impulse = row[Layout::<N>::SLIDE_IMPULSE].on(machine);
                 p.apply_linear(&row[..N], impulse);
@@ -107,16 +116,21 @@ impl<const N: usize, M: Machine> Passes<N, M> {
                     p.apply_angular(row, impulse.on(machine));
                 }
             }
-            p.scatter(block, state);
+            p.scatter(block, &mut states);
         }
     }
 
     #[inline(always)]
-    fn solve(machine: M, contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
-        let ContactRows { blocks, rows, problem } = contacts;
-        for block in blocks.iter() {
-            let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
-            let mut p = Pairing::<N, M>::gather(machine, block, rows, state);
+    fn solve(machine: M, pass: Solve<'_, N>) {
+        let Solve { blocks, rows, problem, mut states, times } = pass;
+        let first = blocks.first().map_or(0, |block| block.start);
+        for block in blocks {
+            let rows = &mut rows[block.start - first..][..Layout::<N>::block_len(block)];
+            if block.round {
+                RoundPasses::<N, M>::solve(machine, block, rows, &mut states, times);
+                continue;
+            }
+            let mut p = Pairing::<N, M>::gather(machine, block, rows, states.read());
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
             let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
             let (response, resistance) = rest.split_at_mut(block.points * (block.points + 1) / 2);
@@ -137,7 +151,7 @@ impl<const N: usize, M: Machine> Passes<N, M> {
                 Self::rub(block, head, points, resistance, &mut p, times);
             }
             Self::note_excess(head, points, &before, &p, times);
-            p.scatter(block, state);
+            p.scatter(block, &mut states);
         }
     }
 
@@ -173,14 +187,14 @@ impl<const N: usize, M: Machine> Passes<N, M> {
 
     /// What a row measures without the bodies' changes: base velocity by now.
     #[inline(always)]
-    fn base(velocity: Lanes, acceleration: Lanes, elapsed: Wide<M>) -> Wide<M> {
+    pub(super) fn base(velocity: Lanes, acceleration: Lanes, elapsed: Wide<M>) -> Wide<M> {
         elapsed * acceleration + velocity
     }
 
     /// The share of a wish that stays within a ball of radius `limit`. In parts of the limit, whose square might vanish in
     /// single precision.
     #[inline(always)]
-    fn share_within(limit: Wide<M>, wanted: &[Wide<M>]) -> Wide<M> {
+    pub(super) fn share_within(limit: Wide<M>, wanted: &[Wide<M>]) -> Wide<M> {
         let one = Wide::splat(limit.machine(), 1.0);
         let inverse_limit = one.div(limit.max(Wide::splat(limit.machine(), Real::MIN_POSITIVE)));
         let mut ratio_sq = Wide::zero(limit.machine());
@@ -358,14 +372,11 @@ impl<const N: usize, M: Machine> Passes<N, M> {
         let zero = Wide::zero(machine);
         let elapsed = Wide::splat(machine, times.elapsed);
         let (moved, moved_sq) = (Wide::splat(machine, times.moved), Wide::splat(machine, times.moved_sq));
-        let inverse_h = Wide::splat(machine, times.inverse_h);
         let (bias_rate, softness) = if times.push {
             (head[Layout::<N>::BIAS_RATE].on(machine), head[Layout::<N>::SOFTNESS].on(machine))
         } else {
             (zero, zero)
         };
-        let slop = Wide::splat(machine, times.slop);
-        let push_limit = Wide::splat(machine, -times.push_out_speed);
         let (mut closed, mut velocities) = ([zero; N], [zero; N]);
         for (t, row) in Self::field(block, head).enumerate() {
             let (velocity, acceleration) = (row[Layout::<N>::FIELD_VELOCITY], row[Layout::<N>::FIELD_ACCELERATION]);
@@ -378,12 +389,19 @@ impl<const N: usize, M: Machine> Passes<N, M> {
             let lever = &row[Layout::<N>::POINT_LEVER..];
             let gap = row[Layout::<N>::POINT_GAP].on(machine) + row[Layout::<N>::POINT_ARC] + value_at(&closed, lever);
             let velocity = value_at(&velocities, lever);
-            // Ahead of touching: approach may close the gap within the substep. Overlapping: pushed apart softly.
-            let overlap = (gap + slop).min(zero);
-            let bias = gap.select_positive(gap * inverse_h, (bias_rate * overlap).max(push_limit));
-            problem.excess[index] = (velocity + bias).lanes();
+            problem.excess[index] = (velocity + Self::bias(gap, bias_rate, times)).lanes();
             problem.softness[index] = gap.select_positive(zero, softness).lanes();
         }
+    }
+
+    /// What a row of the given gap may approach by beside its velocity. Ahead of touching: approach may close the gap within
+    /// the substep. Overlapping: pushed apart softly.
+    #[inline(always)]
+    pub(super) fn bias(gap: Wide<M>, bias_rate: Wide<M>, times: &PassTimes) -> Wide<M> {
+        let machine = gap.machine();
+        let overlap = (gap + Wide::splat(machine, times.slop)).min(Wide::zero(machine));
+        let push_limit = Wide::splat(machine, -times.push_out_speed);
+        gap.select_positive(gap * Wide::splat(machine, times.inverse_h), (bias_rate * overlap).max(push_limit))
     }
 
     /// The rows of the normal field.
@@ -442,10 +460,15 @@ impl<const N: usize, M: Machine> Passes<N, M> {
 
     #[inline(always)]
     fn bounce(machine: M, contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
-        let ContactRows { blocks, rows, problem } = contacts;
+        let ContactRows { blocks, rows, problem, .. } = contacts;
+        let mut states = States::InPlace(state);
         for block in blocks.iter().filter(|block| block.bounces) {
             let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
-            let mut p = Pairing::<N, M>::gather(machine, block, rows, state);
+            if block.round {
+                RoundPasses::<N, M>::bounce(machine, block, rows, &mut states, times);
+                continue;
+            }
+            let mut p = Pairing::<N, M>::gather(machine, block, rows, states.read());
             let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
             let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
             let response = &rest[..block.points * (block.points + 1) / 2];
@@ -463,7 +486,7 @@ impl<const N: usize, M: Machine> Passes<N, M> {
             }
             Self::apply_solution(block, head, points, &mut p, problem);
             Self::note_excess(head, points, &before, &p, times);
-            p.scatter(block, state);
+            p.scatter(block, &mut states);
         }
     }
 
@@ -477,36 +500,56 @@ impl<const N: usize, M: Machine> Passes<N, M> {
         times: &PassTimes,
         problem: &mut NormalProblem,
     ) {
-        let machine = p.machine;
-        let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
-        let elapsed = Wide::splat(machine, times.elapsed);
-        let threshold = Wide::splat(machine, -times.restitution_threshold);
-        let restitution = head[Layout::<N>::RESTITUTION].on(machine);
+        let zero = Wide::zero(p.machine);
+        let restitution = head[Layout::<N>::RESTITUTION].on(p.machine);
         let (mut starts, mut accelerations, mut changes) = ([zero; N], [zero; N], [zero; N]);
         for (t, row) in Self::field(block, head).enumerate() {
-            starts[t] = row[Layout::<N>::FIELD_VELOCITY].on(machine);
-            accelerations[t] = row[Layout::<N>::FIELD_ACCELERATION].on(machine);
+            starts[t] = row[Layout::<N>::FIELD_VELOCITY].on(p.machine);
+            accelerations[t] = row[Layout::<N>::FIELD_ACCELERATION].on(p.machine);
             changes[t] = p.measure_angular(row);
         }
         changes[0] += p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
         for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             let lever = &row[Layout::<N>::POINT_LEVER..];
-            let (at_start, acceleration) = (value_at(&starts, lever), value_at(&accelerations, lever));
-            // Between the start of the step and the touch the body falls on; without this, a ball that gives back all
-            // of its speed would lose what it gained over that gap at every bounce.
-            let gap = row[Layout::<N>::POINT_GAP].on(machine).max(zero);
-            let gained = Wide::splat(machine, -2.0) * acceleration * gap;
-            let approach = -(at_start * at_start + gained).max(zero).sqrt();
-            let velocity = at_start + elapsed * acceleration + value_at(&changes, lever);
-            let fast = (threshold - at_start).select_positive(restitution, zero);
-            problem.excess[index] = (velocity + fast * approach).lanes();
+            let gap = row[Layout::<N>::POINT_GAP].on(p.machine);
+            let of_row = (value_at(&starts, lever), value_at(&accelerations, lever), gap);
+            let (excess, fast) = Self::bounce_of(of_row, restitution, value_at(&changes, lever), times);
+            problem.excess[index] = excess.lanes();
             problem.softness[index] = Lanes::ZERO;
-            problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
-            // What was met in this step bounces; what presses and is slow must go on pressing.
-            let met = row[Layout::<N>::POINT_STEP_IMPULSE].on(machine).select_positive(one, zero);
-            let presses = row[Layout::<N>::POINT_IMPULSE].on(machine).select_positive(one, zero);
-            problem.allowed[index] = fast.select_positive(met, presses).lanes();
+            let held = row[Layout::<N>::POINT_IMPULSE];
+            problem.held[index] = held;
+            let step_impulse = row[Layout::<N>::POINT_STEP_IMPULSE].on(p.machine);
+            problem.allowed[index] = Self::may_press(fast, step_impulse, held.on(p.machine)).lanes();
         }
+    }
+
+    /// What a row should lose for the bounce, and the share of its approach that it gives back: zero where it is slow. Of
+    /// the row: base velocity at the start of the step, acceleration, gap; `change` is what impulses have made of it.
+    #[inline(always)]
+    pub(super) fn bounce_of(
+        (at_start, acceleration, gap): (Wide<M>, Wide<M>, Wide<M>),
+        restitution: Wide<M>,
+        change: Wide<M>,
+        times: &PassTimes,
+    ) -> (Wide<M>, Wide<M>) {
+        let machine = gap.machine();
+        let zero = Wide::zero(machine);
+        // Between the start of the step and the touch the body falls on; without this, a ball that gives back all
+        // of its speed would lose what it gained over that gap at every bounce.
+        let gained = Wide::splat(machine, -2.0) * acceleration * gap.max(zero);
+        let approach = -(at_start * at_start + gained).max(zero).sqrt();
+        let velocity = at_start + Wide::splat(machine, times.elapsed) * acceleration + change;
+        let threshold = Wide::splat(machine, -times.restitution_threshold);
+        let fast = (threshold - at_start).select_positive(restitution, zero);
+        (velocity + fast * approach, fast)
+    }
+
+    /// One where a point may press at the bounce: what was met in this step bounces; what presses and is slow must go on
+    /// pressing.
+    #[inline(always)]
+    pub(super) fn may_press(fast: Wide<M>, step_impulse: Wide<M>, held: Wide<M>) -> Wide<M> {
+        let (zero, one) = (Wide::zero(fast.machine()), Wide::splat(fast.machine(), 1.0));
+        fast.select_positive(step_impulse, held).select_positive(one, zero)
     }
 }
 

@@ -219,6 +219,11 @@ impl<const N: usize> Joints<N> {
         }
     }
 
+    /// Which bodies that rotate freely have joints.
+    pub(crate) fn jointed_gyros(&self) -> impl Iterator<Item = usize> {
+        self.places.iter().filter_map(|place| place.gyro)
+    }
+
     /// The place of a body; of what no impulse moves, a new one.
     fn place(&mut self, body: Option<&Body<N>>, gyros: &[Gyro<N>]) -> usize {
         let row = body.map_or(0, |body| body.solver_index as usize);

@@ -41,7 +41,7 @@ pub(crate) struct Spot<const N: usize> {
 pub(crate) struct Place<const N: usize> {
     /// Row of the solver's bodies; 0 for what does not move.
     pub(crate) row: usize,
-    gyro: Option<usize>,
+    pub(crate) gyro: Option<usize>,
     pub(crate) now: Spot<N>,
     /// Where it would be after this substep at its present velocity.
     pub(crate) next: Spot<N>,

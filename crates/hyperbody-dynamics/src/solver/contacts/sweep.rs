@@ -1,0 +1,92 @@
+//! One sweep over all contacts, by one thread or by several.
+//!
+//! Contacts of a colour share no body that moves, so their order does not matter, and halves of them may be solved at the
+//! same time. Threads read the states of bodies as they were before the colour and put what they find aside; when all are
+//! done it is put in place. So the bits don't depend on the number of threads.
+
+use super::normal::NormalProblem;
+use super::pairing::{States, put_in_place, put_len};
+use super::solve::Solve;
+use super::{Block, ContactRows, PassTimes};
+use crate::solver::lanes::{Lanes, Real};
+use crate::solver::machine::Processor;
+
+/// Blocks that one thread takes at a time: two to ten microseconds a block against some ten for waking a thread.
+const SHARE: usize = 24;
+
+/// Blocks of a step from which several threads are worth their while.
+const MANY: usize = 128;
+
+/// What a sweep needs.
+#[derive(Clone, Copy)]
+pub(crate) struct Sweep<'a> {
+    pub(crate) processor: Processor,
+    pub(crate) times: &'a PassTimes,
+}
+
+impl Sweep<'_> {
+    /// Solves all contacts once. `ends` tells after how many blocks each colour ends.
+    pub(crate) fn run<const N: usize>(
+        &self,
+        contacts: &mut ContactRows,
+        ends: &[usize],
+        state: &mut [Real],
+        pool: Option<&rayon::ThreadPool>,
+    ) {
+        match pool.filter(|_| contacts.blocks.len() >= MANY) {
+            Some(pool) => pool.install(|| self.by_colours::<N>(contacts, ends, state)),
+            None => {
+                let ContactRows { blocks, rows, problem, .. } = contacts;
+                self.in_place::<N>(blocks, rows, problem, state);
+            }
+        }
+    }
+
+    fn in_place<const N: usize>(
+        &self,
+        blocks: &[Block],
+        rows: &mut [Lanes],
+        problem: &mut NormalProblem,
+        state: &mut [Real],
+    ) {
+        let states = States::InPlace(state);
+        self.processor.run(Solve::<N> { blocks, rows, problem, states, times: self.times });
+    }
+
+    /// One colour after the other, large ones by all threads of the pool that this runs in.
+    fn by_colours<const N: usize>(&self, contacts: &mut ContactRows, ends: &[usize], state: &mut [Real]) {
+        let ContactRows { blocks, rows, problem, put } = contacts;
+        let mut first = 0;
+        for &end in ends {
+            let colour = &blocks[first..end];
+            let start = colour.first().map_or(0, |block| block.start);
+            let next = blocks.get(end).map_or(rows.len(), |block| block.start);
+            let rows = &mut rows[start..next];
+            if colour.len() > SHARE {
+                put.resize(colour.len() * put_len::<N>(), Lanes::ZERO);
+                self.share::<N>(colour, rows, state, put);
+                put_in_place::<N>(colour, put, state);
+            } else {
+                self.in_place::<N>(colour, rows, problem, state);
+            }
+            first = end;
+        }
+    }
+
+    /// Solves blocks of one colour, halves of them at the same time.
+    fn share<const N: usize>(&self, blocks: &[Block], rows: &mut [Lanes], read: &[Real], put: &mut [Lanes]) {
+        if blocks.len() <= SHARE {
+            let mut problem = NormalProblem::default();
+            let states = States::Aside { read, put: put.iter_mut() };
+            self.processor.run(Solve::<N> { blocks, rows, problem: &mut problem, states, times: self.times });
+            return;
+        }
+        let (one, other) = blocks.split_at(blocks.len() / 2);
+        let (rows_of_one, rows_of_other) = rows.split_at_mut(other[0].start - one[0].start);
+        let (put_of_one, put_of_other) = put.split_at_mut(one.len() * put_len::<N>());
+        rayon::join(
+            || self.share::<N>(one, rows_of_one, read, put_of_one),
+            || self.share::<N>(other, rows_of_other, read, put_of_other),
+        );
+    }
+}
