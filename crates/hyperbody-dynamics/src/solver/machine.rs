@@ -35,6 +35,7 @@ pub(crate) trait Machine: Copy {
     fn transpose(self, rows: [Self::Vector; WIDTH]) -> [Self::Vector; WIDTH];
 
     fn load_doubles(self, values: [f64; WIDTH]) -> Self::Doubles;
+    fn store_doubles(self, a: Self::Doubles) -> [f64; WIDTH];
     fn widen(self, a: Self::Vector) -> Self::Doubles;
     /// Rounded to the nearest.
     fn narrow(self, a: Self::Doubles) -> Self::Vector;
@@ -192,6 +193,11 @@ impl Machine for Plain {
     #[inline(always)]
     fn load_doubles(self, values: [f64; WIDTH]) -> [f64; WIDTH] {
         values
+    }
+
+    #[inline(always)]
+    fn store_doubles(self, a: [f64; WIDTH]) -> [f64; WIDTH] {
+        a
     }
 
     #[inline(always)]
@@ -383,6 +389,12 @@ mod avx {
         fn load_doubles(self, values: [f64; WIDTH]) -> Self::Doubles {
             let [a, b, c, d, e, f, g, h] = values;
             (pulp::cast([a, b, c, d]), pulp::cast([e, f, g, h]))
+        }
+
+        #[inline(always)]
+        fn store_doubles(self, (low, high): Self::Doubles) -> [f64; WIDTH] {
+            let ([a, b, c, d], [e, f, g, h]): ([f64; 4], [f64; 4]) = (pulp::cast(low), pulp::cast(high));
+            [a, b, c, d, e, f, g, h]
         }
 
         #[inline(always)]

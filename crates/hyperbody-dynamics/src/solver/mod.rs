@@ -288,17 +288,20 @@ impl<const N: usize> Solver<N> {
     }
 
     fn refresh_joints(&mut self, moment: &Moment) {
-        let moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
+        let moving =
+            Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state, processor: self.processor };
         self.joints.refresh(&moving, moment);
     }
 
     fn warm_start_joints(&mut self, pass: Pass, h: f64) {
-        let mut moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
+        let mut moving =
+            Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state, processor: self.processor };
         self.joints.warm_start(&mut moving, pass, h);
     }
 
     fn solve_joints(&mut self, pass: Pass, substep: u32, h: f64) {
-        let mut moving = Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state };
+        let mut moving =
+            Moving { bodies: &self.bodies, gyros: &self.gyros, state: &mut self.state, processor: self.processor };
         let moment = Moment::new(substep, substep + 1, h);
         if matches!(pass, Pass::Move) {
             self.joints.look_ahead(&moving, &moment);

@@ -164,6 +164,12 @@ impl<M: Machine> Doubles<M> {
         Wide::splat(machine, value).doubles()
     }
 
+    /// As they stand in memory.
+    #[inline(always)]
+    pub(crate) fn values(self) -> [f64; WIDTH] {
+        self.machine.store_doubles(self.vectors)
+    }
+
     #[inline(always)]
     pub(crate) fn zero(machine: M) -> Self {
         Self::splat(machine, 0.0)

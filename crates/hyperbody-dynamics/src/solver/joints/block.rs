@@ -1,13 +1,11 @@
 //! Factors of small symmetric positive matrices: K = L D Lᵀ, lower triangles by rows, with 1/D on the diagonal.
 
+use super::panel::INDEPENDENT;
+
 /// Numbers of a triangle of `count` rows.
 pub(super) const fn len(count: usize) -> usize {
     count * (count + 1) / 2
 }
-
-/// Share of a row's response that must be left when the rows before it are accounted for: a row that is all but a
-/// combination of others is left out, as its impulse would be anything.
-const INDEPENDENT: f64 = 1e-9;
 
 /// Replaces a matrix by its factors.
 pub(super) fn factorize(matrix: &mut [f64], count: usize) {
@@ -47,27 +45,6 @@ pub(super) fn solve(factors: &[f64], count: usize, y: &mut [f64]) {
         y[i] *= factors[len(i) + i];
         for k in i + 1..count {
             y[i] -= factors[len(k) + i] * y[k];
-        }
-    }
-}
-
-/// Solves K X = Y in place for all columns of a matrix of `count` rows.
-pub(super) fn solve_columns(factors: &[f64], count: usize, y: &mut [f64], columns: usize) {
-    for i in 0..count {
-        for k in 0..i {
-            let (head, tail) = y.split_at_mut(i * columns);
-            let source = &head[k * columns..(k + 1) * columns];
-            tail[..columns].iter_mut().zip(source).for_each(|(y, source)| *y -= factors[len(i) + k] * source);
-        }
-    }
-    for i in 0..count {
-        y[i * columns..(i + 1) * columns].iter_mut().for_each(|y| *y *= factors[len(i) + i]);
-    }
-    for i in (0..count).rev() {
-        for k in i + 1..count {
-            let (head, tail) = y.split_at_mut(k * columns);
-            let target = &mut head[i * columns..(i + 1) * columns];
-            target.iter_mut().zip(&tail[..columns]).for_each(|(y, source)| *y -= factors[len(k) + i] * source);
         }
     }
 }

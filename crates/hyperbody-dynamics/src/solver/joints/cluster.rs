@@ -1,15 +1,16 @@
-//! Which joints are solved together, and in which order their unknowns are eliminated.
+//! Which joints are solved together, and where the numbers of their linear systems stand.
 //!
 //! Joints that share a moving body answer to each other. A connected set of joints is one *cluster* when its linear system can be
-//! factored at little cost: chains, trees, ragdolls, cars and small loops. Its solution is then exact, however long the chain
-//! and however unequal the masses. The joints of a large net are solved one by one instead.
+//! factored at little cost: chains, trees, ragdolls, cars, small loops and nets. Its solution is then exact, however long the chain
+//! and however unequal the masses. The joints of a very large net are solved one by one instead.
 //!
-//! The system is K x = y with a block for each pair of joints that share a body (K = J M⁻¹ Jᵀ). Eliminating a joint makes neighbours of all
-//! its neighbours; the next joint is always one with fewest rows around it (minimum degree: W. F. Tinney and J. W. Walker, 1967), for trees
-//! from the leaves inwards. The plan depends on who is jointed to whom alone, and is kept while that stays the same.
+//! The system is K x = y with a block for each pair of joints that share a body (K = J M⁻¹ Jᵀ). The plan depends on who is jointed
+//! to whom alone, and is kept while that stays the same.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
+
+use super::elimination::{Elimination, cost};
+use super::fronts::{Front, Room, drafts};
 
 /// A joint as the plan sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,15 +27,6 @@ pub(super) struct Link {
     pub(super) rows: u32,
 }
 
-/// An off-diagonal block: what a joint eliminated later has to do with an earlier one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BlockOf {
-    /// The later one, as a node of the plan.
-    pub(super) node: u32,
-    /// Its first column in the matrix of the earlier one.
-    pub(super) column: u32,
-}
-
 /// A joint within its cluster.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
@@ -42,21 +34,9 @@ pub(super) struct Node {
     pub(super) rows: u32,
     /// Where its unknowns stand in the vector of its cluster.
     pub(super) unknowns: u32,
-    /// Its diagonal block: a lower triangle by rows. Its matrix follows.
-    pub(super) diagonal: u32,
-    /// Columns of its matrix: rows of all joints that are eliminated later and have something to do with it then.
-    pub(super) later: u32,
-    pub(super) blocks: Range<u32>,
-    /// Offsets that its elimination changes: for each block p and each q ≤ p of its blocks, that of the pair's block.
-    targets: u32,
 }
 
 impl Node {
-    /// Where its matrix stands: a row for each of its own rows, a column for each later one.
-    pub(super) fn matrix(&self) -> usize {
-        (self.diagonal + self.rows * (self.rows + 1) / 2) as usize
-    }
-
     /// Its part of a vector of its cluster.
     pub(super) fn of<'a>(&self, unknowns: &'a mut [f64]) -> &'a mut [f64] {
         &mut unknowns[self.unknowns as usize..][..self.rows as usize]
@@ -66,7 +46,10 @@ impl Node {
 /// Two joints of a cluster that share a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coupling {
-    pub(super) offset: u32,
+    /// Where their block stands in the front of the earlier: its first column and row.
+    pub(super) column: u32,
+    pub(super) row: u32,
+    /// The joints, as nodes of the plan.
     pub(super) later: u32,
     pub(super) earlier: u32,
     /// Place of the shared body, counted from 1.
@@ -79,9 +62,7 @@ pub(super) struct Coupling {
 #[derive(Clone, Debug)]
 pub(super) struct Cluster {
     pub(super) nodes: Range<u32>,
-    pub(super) couplings: Range<u32>,
-    /// Its numbers.
-    pub(super) values: Range<u32>,
+    pub(super) fronts: Range<u32>,
     pub(super) unknowns: u32,
     /// Whether some of its rows have a range.
     pub(super) bounded: bool,
@@ -96,11 +77,15 @@ pub(super) struct Plan {
     budget: u64,
     pub(super) clusters: Vec<Cluster>,
     pub(super) nodes: Vec<Node>,
-    pub(super) blocks: Vec<BlockOf>,
-    pub(super) couplings: Vec<Coupling>,
-    targets: Vec<u32>,
-    /// Numbers of all clusters.
+    fronts: Vec<Front>,
+    couplings: Vec<Coupling>,
+    /// By front: unknowns around, and their rows in the next front.
+    later: Vec<u32>,
+    into: Vec<u32>,
+    children: Vec<u32>,
+    /// Numbers of all clusters, and of the updates that any of them needs at a time.
     pub(super) values: u32,
+    pub(super) updates: u32,
 }
 
 /// How much dearer than a chain of as many joints a cluster may be in any case: trees and small loops.
@@ -138,189 +123,139 @@ impl Plan {
     }
 
     fn add_alone(&mut self, link: Link) {
-        let alone = Elimination { order: vec![0], around: vec![Vec::new()], pairs: Vec::new() };
-        self.add(&[link], &alone, false);
+        self.add(&[link], &Elimination::of_one(), false);
     }
 
     pub(super) fn nodes_of(&self, cluster: &Cluster) -> &[Node] {
-        &self.nodes[cluster.nodes.start as usize..cluster.nodes.end as usize]
+        part(&self.nodes, &cluster.nodes)
     }
 
-    pub(super) fn blocks_of(&self, node: &Node) -> &[BlockOf] {
-        &self.blocks[node.blocks.start as usize..node.blocks.end as usize]
+    pub(super) fn fronts_of(&self, cluster: &Cluster) -> &[Front] {
+        part(&self.fronts, &cluster.fronts)
     }
 
-    /// The offset of the block of two of a node's neighbours, the p-th and the q-th ≤ p.
-    pub(super) fn target(&self, node: &Node, p: usize, q: usize) -> usize {
-        self.targets[node.targets as usize + p * (p + 1) / 2 + q] as usize
+    pub(super) fn nodes_in(&self, front: &Front) -> &[Node] {
+        part(&self.nodes, &front.nodes)
+    }
+
+    pub(super) fn couplings_of(&self, front: &Front) -> &[Coupling] {
+        part(&self.couplings, &front.couplings)
+    }
+
+    pub(super) fn children_of(&self, front: &Front) -> impl Iterator<Item = &Front> {
+        part(&self.children, &front.children).iter().map(|&child| &self.fronts[child as usize])
+    }
+
+    /// The unknowns around a front.
+    pub(super) fn around(&self, front: &Front) -> &[u32] {
+        part(&self.later, &front.later)
+    }
+
+    /// The rows of the next front that they are.
+    pub(super) fn rows_in_next(&self, front: &Front) -> &[u32] {
+        part(&self.into, &front.later)
     }
 
     fn add(&mut self, links: &[Link], elimination: &Elimination, whole: bool) {
-        let first = self.nodes.len();
-        let start = self.values;
-        let couplings = len(&self.couplings);
+        let (first_node, first_front) = (len(&self.nodes), len(&self.fronts));
         let mut unknowns = 0;
-        let mut position = vec![0; links.len()];
-        for (at, &index) in elimination.order.iter().enumerate() {
-            position[index as usize] = at;
-        }
         for &index in &elimination.order {
             let link = &links[index as usize];
-            let diagonal = self.values;
-            self.values += link.rows * (link.rows + 1) / 2;
-            let mut around: Vec<usize> =
-                elimination.around[index as usize].iter().map(|&other| position[other as usize]).collect();
-            around.sort_unstable();
-            let blocks = len(&self.blocks);
-            let mut later = 0;
-            for other in around {
-                self.blocks.push(BlockOf { node: number(first + other), column: later });
-                later += links[elimination.order[other] as usize].rows;
-            }
-            self.values += later * link.rows;
-            let blocks = blocks..len(&self.blocks);
-            self.nodes.push(Node { joint: link.joint, rows: link.rows, unknowns, diagonal, later, blocks, targets: 0 });
+            self.nodes.push(Node { joint: link.joint, rows: link.rows, unknowns });
             unknowns += link.rows;
         }
-        self.find_targets(first);
-        self.find_couplings(links, elimination, &position, first);
+        self.add_fronts(elimination, first_node);
+        self.find_couplings(links, elimination, (first_node, first_front));
         self.clusters.push(Cluster {
-            nodes: number(first)..len(&self.nodes),
-            couplings: couplings..len(&self.couplings),
-            values: start..self.values,
+            nodes: first_node..len(&self.nodes),
+            fronts: first_front..len(&self.fronts),
             unknowns,
             bounded: links.iter().any(|link| link.bounded),
             whole,
         });
     }
 
-    fn find_targets(&mut self, first: usize) {
-        for index in first..self.nodes.len() {
-            self.nodes[index].targets = len(&self.targets);
-            let blocks = self.nodes[index].blocks.clone();
-            for p in blocks.clone() {
-                for q in blocks.start..=p {
-                    let (later, earlier) = (self.blocks[p as usize].node, self.blocks[q as usize].node);
-                    let offset = self.offset(later, earlier);
-                    self.targets.push(offset);
+    fn add_fronts(&mut self, elimination: &Elimination, first_node: u32) {
+        let nodes = &self.nodes[first_node as usize..];
+        let rows: Vec<u32> = nodes.iter().map(|node| node.rows).collect();
+        let mut room = Room::default();
+        // Fronts that wait for the next one of the tree, which comes behind them.
+        let mut waiting: Vec<u32> = Vec::new();
+        for draft in drafts(elimination, &rows) {
+            let own = &nodes[draft.places.start as usize..draft.places.end as usize];
+            let later = len(&self.later);
+            for node in draft.around.iter().map(|&place| &nodes[place as usize]) {
+                self.later.extend(node.unknowns..node.unknowns + node.rows);
+            }
+            self.into.resize(self.later.len(), 0);
+            let children = len(&self.children);
+            let mut front = Front {
+                nodes: first_node + draft.places.start..first_node + draft.places.end,
+                first: own[0].unknowns,
+                own: own.iter().map(|node| node.rows).sum(),
+                later: later..len(&self.later),
+                children: children..children,
+                couplings: 0..0,
+                values: self.values,
+                update: 0,
+            };
+            self.values += number(front.panel().len());
+            front.update = room.take(number(front.update().len()));
+            while let Some(&child) = waiting.last()
+                && self.is_child(&self.fronts[child as usize], &front)
+            {
+                waiting.pop();
+                self.children.push(child);
+                let child = &self.fronts[child as usize];
+                room.give_back(child.update());
+                for at in child.later.clone() {
+                    self.into[at as usize] = self.row_of(self.later[at as usize], &front);
                 }
             }
+            front.children.end = len(&self.children);
+            waiting.push(len(&self.fronts));
+            self.fronts.push(front);
         }
+        self.updates = self.updates.max(room.len);
     }
 
-    /// The block of two nodes that are neighbours when the earlier is eliminated.
-    fn offset(&self, later: u32, earlier: u32) -> u32 {
-        let node = &self.nodes[earlier as usize];
-        if later == earlier {
-            return node.diagonal;
-        }
-        let blocks = self.blocks_of(node);
-        let at = blocks.binary_search_by_key(&later, |block| block.node).expect("elimination made them neighbours");
-        number(node.matrix()) + blocks[at].column
+    fn is_child(&self, front: &Front, next: &Front) -> bool {
+        self.around(front).first().is_some_and(|&unknown| (next.first..next.first + next.own).contains(&unknown))
     }
 
-    fn find_couplings(&mut self, links: &[Link], elimination: &Elimination, position: &[usize], first: usize) {
-        for &(i, j) in &elimination.pairs {
-            let (late, early) = if position[i as usize] > position[j as usize] { (i, j) } else { (j, i) };
-            let (later, earlier) = (number(first + position[late as usize]), number(first + position[early as usize]));
-            let offset = self.offset(later, earlier);
-            for (side, &body) in links[late as usize].bodies.iter().enumerate() {
-                for (other_side, &other) in links[early as usize].bodies.iter().enumerate() {
-                    if body == other && body != 0 {
-                        let second = [side == 1, other_side == 1];
-                        self.couplings.push(Coupling { offset, later, earlier, body, second });
+    /// Which row of a front an unknown is.
+    fn row_of(&self, unknown: u32, front: &Front) -> u32 {
+        if unknown < front.first + front.own {
+            return unknown - front.first;
+        }
+        let at = self.around(front).binary_search(&unknown).expect("elimination made them neighbours");
+        front.own + number(at)
+    }
+
+    fn find_couplings(&mut self, links: &[Link], elimination: &Elimination, (first_node, first_front): (u32, u32)) {
+        let mut pairs = elimination.pairs.clone();
+        pairs.sort_unstable();
+        let link = |place: u32| &links[elimination.order[place as usize] as usize];
+        let mut pairs = pairs.into_iter().peekable();
+        for index in first_front as usize..self.fronts.len() {
+            let front = self.fronts[index].clone();
+            let first = len(&self.couplings);
+            while let Some((early, late)) = pairs.next_if(|&(early, _)| first_node + early < front.nodes.end) {
+                let (earlier, later) = (first_node + early, first_node + late);
+                let column = self.nodes[earlier as usize].unknowns - front.first;
+                let row = self.row_of(self.nodes[later as usize].unknowns, &front);
+                for (side, &body) in link(late).bodies.iter().enumerate() {
+                    for (other_side, &other) in link(early).bodies.iter().enumerate() {
+                        if body == other && body != 0 {
+                            let second = [side == 1, other_side == 1];
+                            self.couplings.push(Coupling { column, row, later, earlier, body, second });
+                        }
                     }
                 }
             }
+            self.fronts[index].couplings = first..len(&self.couplings);
         }
     }
-}
-
-/// Multiplications, about, that eliminate `rows` unknowns with `around` unknowns left around them.
-fn cost(rows: u32, around: u32) -> u64 {
-    let all = u64::from(rows + around);
-    all * all * u64::from(rows)
-}
-
-/// The order of elimination, and who is around each when its turn comes.
-struct Elimination {
-    order: Vec<u32>,
-    around: Vec<Vec<u32>>,
-    /// Pairs that share a body, each once, smaller number first.
-    pairs: Vec<(u32, u32)>,
-}
-
-impl Elimination {
-    /// Nothing if it would cost more than the budget.
-    fn new(links: &[Link], budget: u64) -> Option<Self> {
-        if dearest_body(links) > budget {
-            return None;
-        }
-        let pairs = pairs(links);
-        let mut around: Vec<Vec<u32>> = vec![Vec::new(); links.len()];
-        for &(i, j) in &pairs {
-            around[i as usize].push(j);
-            around[j as usize].push(i);
-        }
-        around.iter_mut().for_each(|others| others.sort_unstable());
-        let rows_around = |others: &[u32]| others.iter().map(|&other| links[other as usize].rows).sum::<u32>();
-        let mut left: BTreeSet<(u32, u32)> =
-            around.iter().enumerate().map(|(index, others)| (rows_around(others), number(index))).collect();
-        let mut order = Vec::with_capacity(links.len());
-        let mut spent = 0;
-        while let Some((rows, index)) = left.pop_first() {
-            spent += cost(links[index as usize].rows, rows);
-            if spent > budget {
-                return None;
-            }
-            order.push(index);
-            let others = around[index as usize].clone();
-            for &other in &others {
-                let mine = &mut around[other as usize];
-                left.remove(&(rows_around(mine), other));
-                mine.extend(&others);
-                mine.sort_unstable();
-                mine.dedup();
-                mine.retain(|&one| one != other && one != index);
-                left.insert((rows_around(mine), other));
-            }
-        }
-        Some(Self { order, around, pairs })
-    }
-}
-
-/// Multiplications, about, that the joints of one body cost at least: sooner or later they are all neighbours.
-fn dearest_body(links: &[Link]) -> u64 {
-    let mut ends: Vec<(u32, u64)> = links
-        .iter()
-        .flat_map(|link| link.bodies.map(|body| (body, u64::from(link.rows))))
-        .filter(|&(body, _)| body != 0)
-        .collect();
-    ends.sort_unstable();
-    let of_body = ends.chunk_by(|one, other| one.0 == other.0);
-    let rows = of_body.map(|ends| ends.iter().map(|&(_, rows)| rows).sum::<u64>()).max().unwrap_or(0);
-    rows * rows * rows / 3
-}
-
-/// Pairs of links that share a body that moves.
-fn pairs(links: &[Link]) -> Vec<(u32, u32)> {
-    let mut ends: Vec<(u32, u32)> = links
-        .iter()
-        .enumerate()
-        .flat_map(|(index, link)| link.bodies.map(|body| (body, number(index))))
-        .filter(|&(body, _)| body != 0)
-        .collect();
-    ends.sort_unstable();
-    ends.dedup();
-    let mut pairs: Vec<(u32, u32)> = ends
-        .chunk_by(|one, other| one.0 == other.0)
-        .flat_map(|of_body| {
-            of_body.iter().enumerate().flat_map(|(k, one)| of_body[..k].iter().map(move |other| (other.1, one.1)))
-        })
-        .collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
 }
 
 /// Links that hang together through moving bodies, in the order of their first links.
@@ -370,10 +305,14 @@ impl Sets {
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "joints and their numbers are counted in u32")]
-fn number(index: usize) -> u32 {
+pub(super) fn number(index: usize) -> u32 {
     index as u32
 }
 
 fn len<T>(list: &[T]) -> u32 {
     number(list.len())
+}
+
+fn part<'a, T>(list: &'a [T], range: &Range<u32>) -> &'a [T] {
+    &list[range.start as usize..range.end as usize]
 }

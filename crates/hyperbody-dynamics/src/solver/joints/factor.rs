@@ -1,12 +1,13 @@
-//! Numbers of a cluster's linear system: block factors K = L D Lᵀ in the order of the plan, D with a block for each joint.
-//!
-//! What a joint has to do with all later ones is one matrix A with a row for each of its own rows, so that the loops run along
-//! the later ones, of which there are many. Its place takes A K⁻¹ when the joint is eliminated.
+//! Numbers of a cluster's linear system: its factors, front by front (`fronts`), and the solution by them.
 
-use super::cluster::{Cluster, Node, Plan};
+use super::cluster::{Cluster, Coupling, Plan};
+use super::fronts::{Front, SIDE_BY_SIDE};
+use super::panel::{Eliminate, Solve};
 use super::place::Place;
-use super::{JointRows, Row, block};
+use super::{JointRows, Row};
 use crate::solver::bodies::SolverBody;
+use crate::solver::lanes::WIDTH;
+use crate::solver::machine::Processor;
 
 /// What the numbers are made from.
 pub(super) struct Parts<'a, const N: usize> {
@@ -17,99 +18,122 @@ pub(super) struct Parts<'a, const N: usize> {
     pub(super) bodies: &'a [SolverBody<N>],
 }
 
+/// Room for the making of factors and for solving, kept from step to step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    /// What fronts change of the ones behind them.
+    updates: Vec<f64>,
+    weights: Vec<[f64; SIDE_BY_SIDE]>,
+    part: Vec<f64>,
+}
+
 /// Writes the factors of a cluster at the present place. Rows that are not engaged get no impulse.
 pub(super) fn factorize<const N: usize>(
     plan: &Plan,
     cluster: &Cluster,
     parts: &Parts<'_, N>,
-    values: &mut [f64],
-    scratch: &mut Vec<f64>,
+    (values, scratch): (&mut [f64], &mut Scratch),
+    processor: Processor,
 ) {
-    values[cluster.values.start as usize..cluster.values.end as usize].fill(0.0);
-    assemble(plan, cluster, parts, values);
-    for node in plan.nodes_of(cluster) {
-        let (rows, later) = (node.rows as usize, node.later as usize);
-        let (triangle, rest) = values[node.diagonal as usize..].split_at_mut(block::len(rows));
-        block::factorize(triangle, rows);
-        // A K⁻¹ takes the place of A, which is still needed; behind it a row of the product.
-        scratch.clear();
-        scratch.extend_from_slice(&rest[..rows * later]);
-        scratch.resize((rows + 1) * later, 0.0);
-        block::solve_columns(triangle, rows, &mut rest[..rows * later], later);
-        eliminate(plan, node, values, scratch);
+    scratch.updates.resize(plan.updates as usize, 0.0);
+    for front in plan.fronts_of(cluster) {
+        let panel = &mut values[front.panel()];
+        clear(panel, front.stride());
+        clear(&mut scratch.updates[front.update()], front.update_stride());
+        parts.put_joints(plan, front, panel);
+        for coupling in plan.couplings_of(front) {
+            parts.put_coupling(plan, front, coupling, panel);
+        }
+        for child in plan.children_of(front) {
+            take_update(child, plan.rows_in_next(child), front, panel, &mut scratch.updates);
+        }
+        let update = &mut scratch.updates[front.update()];
+        let (nodes, weights) = (plan.nodes_in(front), &mut scratch.weights);
+        processor.run(Eliminate { front, nodes, panel, update, weights });
     }
 }
 
-/// Subtracts A K⁻¹ Aᵀ from what the later joints have to do with each other; `scratch` holds A and room for a row.
-fn eliminate(plan: &Plan, node: &Node, values: &mut [f64], scratch: &mut [f64]) {
-    let (rows, later) = (node.rows as usize, node.later as usize);
-    let (a, product) = scratch.split_at_mut(rows * later);
-    let blocks = plan.blocks_of(node);
-    for (q, earlier) in blocks.iter().enumerate() {
-        let first = earlier.column as usize;
-        let other = &plan.nodes[earlier.node as usize];
-        for j in 0..other.rows as usize {
-            let product = &mut product[first..];
-            product.fill(0.0);
-            for k in 0..rows {
-                let factor = values[node.matrix() + k * later + first + j];
-                for (sum, a) in product.iter_mut().zip(&a[k * later + first..(k + 1) * later]) {
-                    *sum += factor * a;
-                }
-            }
-            let height = other.rows as usize;
-            for i in j..height {
-                values[other.diagonal as usize + block::len(i) + j] -= product[i];
-            }
-            for (p, last) in blocks.iter().enumerate().skip(q + 1) {
-                let width = plan.nodes[last.node as usize].rows as usize;
-                let target = plan.target(node, p, q) + j * other.later as usize;
-                let from = last.column as usize - first;
-                for (value, product) in values[target..target + width].iter_mut().zip(&product[from..from + width]) {
-                    *value -= product;
-                }
-            }
+/// Writes zeros from the diagonal on, in whole vectors.
+fn clear(columns: &mut [f64], height: usize) {
+    for (k, column) in columns.chunks_exact_mut(height.max(1)).enumerate() {
+        column[(k / WIDTH * WIDTH).min(height)..].fill(0.0);
+    }
+}
+
+/// Solves K x = y in place.
+pub(super) fn solve(
+    plan: &Plan,
+    cluster: &Cluster,
+    (values, scratch): (&[f64], &mut Scratch),
+    y: &mut [f64],
+    processor: Processor,
+) {
+    processor.run(Solve { plan, cluster, values, y, part: &mut scratch.part });
+}
+
+/// Adds the update of a front to the next one, whose rows `into` are.
+fn take_update(child: &Front, into: &[u32], front: &Front, panel: &mut [f64], updates: &mut [f64]) {
+    if into.is_empty() {
+        return;
+    }
+    let [from, to] = updates.get_disjoint_mut([child.update(), front.update()]).expect("rooms of updates are disjoint");
+    let (own, stride, height) = (front.own(), front.stride(), front.update_stride());
+    for (j, column) in from.chunks_exact(child.update_stride()).take(into.len()).enumerate() {
+        let (rows, values) = (&into[j..], &column[j..]);
+        match (into[j] as usize).checked_sub(own) {
+            None => add(&mut panel[into[j] as usize * stride..][..stride], rows, values, 0),
+            Some(around) => add(&mut to[around * height..][..height], rows, values, own),
         }
     }
 }
 
-fn assemble<const N: usize>(plan: &Plan, cluster: &Cluster, parts: &Parts<'_, N>, values: &mut [f64]) {
-    for node in plan.nodes_of(cluster) {
-        let joint = &parts.joints[node.joint as usize];
-        let rows = &parts.rows[joint.first..joint.end];
-        let held = joint.held - joint.first;
-        let mut own = parts.own[joint.own..].iter();
-        let mut at = node.diagonal as usize;
-        for i in 0..rows.len() {
-            let given = if i < held && !joint.exact { 1.0 + joint.soft.compliance() } else { 1.0 };
-            for j in 0..=i {
-                let own = own.next().copied().unwrap_or(0.0);
-                if rows[i].engaged && rows[j].engaged {
-                    values[at] = own * given;
-                    if i == j {
-                        values[at] += rows[i].compliance;
+/// Adds numbers to a column that begins at row `first`.
+fn add(column: &mut [f64], rows: &[u32], values: &[f64], first: usize) {
+    for (&row, value) in rows.iter().zip(values) {
+        column[row as usize - first] += value;
+    }
+}
+
+impl<const N: usize> Parts<'_, N> {
+    /// What the rows of each joint have to do with each other.
+    fn put_joints(&self, plan: &Plan, front: &Front, panel: &mut [f64]) {
+        for node in plan.nodes_in(front) {
+            let joint = &self.joints[node.joint as usize];
+            let rows = &self.rows[joint.first..joint.end];
+            let held = joint.held - joint.first;
+            let mut own = self.own[joint.own..].iter();
+            let first = (node.unknowns - front.first) as usize;
+            for i in 0..rows.len() {
+                let given = if i < held && !joint.exact { 1.0 + joint.soft.compliance() } else { 1.0 };
+                for j in 0..=i {
+                    let own = own.next().copied().unwrap_or(0.0);
+                    let value = &mut panel[(first + j) * front.stride() + first + i];
+                    if rows[i].engaged && rows[j].engaged {
+                        *value = own * given;
+                        if i == j {
+                            *value += rows[i].compliance;
+                        }
+                    } else if i == j {
+                        *value = 1.0;
                     }
-                } else if i == j {
-                    values[at] = 1.0;
                 }
-                at += 1;
             }
         }
     }
-    for coupling in &plan.couplings[cluster.couplings.start as usize..cluster.couplings.end as usize] {
-        let body = &parts.bodies[parts.places[coupling.body as usize - 1].row];
+
+    fn put_coupling(&self, plan: &Plan, front: &Front, coupling: &Coupling, panel: &mut [f64]) {
+        let body = &self.bodies[self.places[coupling.body as usize - 1].row];
         let inverse_mass = body.inverse_sqrt_mass * body.inverse_sqrt_mass;
         let of = |node: u32| {
-            let joint = &parts.joints[plan.nodes[node as usize].joint as usize];
-            &parts.rows[joint.first..joint.end]
+            let joint = &self.joints[plan.nodes[node as usize].joint as usize];
+            &self.rows[joint.first..joint.end]
         };
         let (later, earlier) = (of(coupling.later), of(coupling.earlier));
         let sign = if coupling.second[0] == coupling.second[1] { 1.0 } else { -1.0 };
-        let stride = plan.nodes[coupling.earlier as usize].later as usize;
         for (j, other) in earlier.iter().enumerate() {
             let other_arm = if coupling.second[1] { &other.arm_b } else { &other.arm_a };
-            let target = &mut values[coupling.offset as usize + j * stride..][..later.len()];
-            for (value, row) in target.iter_mut().zip(later) {
+            let start = (coupling.column as usize + j) * front.stride() + coupling.row as usize;
+            for (value, row) in panel[start..].iter_mut().zip(later) {
                 let arm = if coupling.second[0] { &row.arm_b } else { &row.arm_a };
                 if row.engaged && other.engaged {
                     let mut sum = inverse_mass * row.direction.dot(other.direction);
@@ -121,52 +145,6 @@ fn assemble<const N: usize>(plan: &Plan, cluster: &Cluster, parts: &Parts<'_, N>
             }
         }
     }
-}
-
-/// Solves K x = y in place.
-pub(super) fn solve(plan: &Plan, cluster: &Cluster, values: &[f64], y: &mut [f64], scratch: &mut Vec<f64>) {
-    let nodes = plan.nodes_of(cluster);
-    for node in nodes {
-        let (rows, later, mine) = (node.rows as usize, node.later as usize, node.unknowns as usize);
-        scratch.clear();
-        scratch.resize(later, 0.0);
-        for (k, &y) in y[mine..mine + rows].iter().enumerate() {
-            let of_row = &values[node.matrix() + k * later..][..later];
-            for (sum, value) in scratch.iter_mut().zip(of_row) {
-                *sum += value * y;
-            }
-        }
-        for block in plan.blocks_of(node) {
-            let other = &plan.nodes[block.node as usize];
-            for (y, sum) in other.of(y).iter_mut().zip(&scratch[block.column as usize..]) {
-                *y -= sum;
-            }
-        }
-        block::solve(&values[node.diagonal as usize..][..block::len(rows)], rows, &mut y[mine..mine + rows]);
-    }
-    for node in nodes.iter().rev() {
-        let (rows, later, mine) = (node.rows as usize, node.later as usize, node.unknowns as usize);
-        scratch.clear();
-        for block in plan.blocks_of(node) {
-            scratch.extend_from_slice(plan.nodes[block.node as usize].of(y));
-        }
-        for k in 0..rows {
-            y[mine + k] -= dot(&values[node.matrix() + k * later..][..later], scratch);
-        }
-    }
-}
-
-/// Sums of products, in four strands, so that they can be vectors.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut strands = [0.0; 4];
-    let (in_fours, rest) = (a.chunks_exact(4), a.chunks_exact(4).remainder());
-    for (a, b) in in_fours.zip(b.chunks_exact(4)) {
-        for k in 0..4 {
-            strands[k] += a[k] * b[k];
-        }
-    }
-    let left: f64 = rest.iter().zip(&b[a.len() - rest.len()..]).map(|(a, b)| a * b).sum();
-    (strands[0] + strands[1]) + (strands[2] + strands[3]) + left
 }
 
 #[cfg(test)]
@@ -205,10 +183,27 @@ mod tests {
         sum
     }
 
-    /// Chains, stars, loops and twice the same pair: the solution put back into the whole matrix gives the right side.
+    /// Pairs of a square net of which two corners are held.
+    fn net(side: usize) -> Vec<(usize, usize)> {
+        let body = |i: usize, j: usize| 1 + i * side + j;
+        let mut pairs = vec![(0, body(0, 0)), (body(side - 1, side - 1), 0)];
+        for i in 0..side {
+            for j in 0..side {
+                pairs.extend((i + 1 < side).then(|| (body(i, j), body(i + 1, j))));
+                pairs.extend((j + 1 < side).then(|| (body(i, j + 1), body(i, j))));
+            }
+        }
+        pairs
+    }
+
+    /// Chains, stars, loops, nets and twice the same pair: the solution put back into the whole matrix gives the right side.
     #[test]
     fn solutions_of_clusters_fit_the_whole_matrix() {
-        let shapes: [&[(usize, usize)]; 5] = [
+        let nets = [net(3), net(7), net(12)];
+        let shapes: [&[(usize, usize)]; 8] = [
+            &nets[0],
+            &nets[1],
+            &nets[2],
             &[(0, 1), (1, 2), (2, 3), (3, 4), (4, 5)],
             &[(1, 2), (1, 3), (1, 4), (1, 5), (0, 5), (5, 6), (5, 7)],
             &[(1, 2), (2, 3), (3, 4), (4, 1), (4, 5)],
@@ -217,10 +212,10 @@ mod tests {
         ];
         let mut seed = 11;
         for shape in shapes {
-            let bodies: Vec<_> = (0..9)
+            let bodies: Vec<_> = (0..150)
                 .map(|k| SolverBody::with_unit_moments(if k == 0 { 0.0 } else { 1.0 + random(&mut seed) }))
                 .collect();
-            let places: Vec<_> = (0..9).map(|k| Place::<N>::new(k, None, Vector::ZERO)).collect();
+            let places: Vec<_> = (0..150).map(|k| Place::<N>::new(k, None, Vector::ZERO)).collect();
             let (mut joints, mut rows, mut links) = (Vec::new(), Vec::new(), Vec::new());
             for (index, &(a, b)) in shape.iter().enumerate() {
                 let first = rows.len();
@@ -275,10 +270,11 @@ mod tests {
             }
             let parts = Parts { joints: &joints, rows: &rows, own: &own, places: &places, bodies: &bodies };
             let mut values = vec![f64::NAN; plan.values as usize];
+            let (mut scratch, processor) = (Scratch::default(), Processor::of_this_machine());
             let mut solution = vec![0.0; rows.len()];
             let right: Vec<f64> = (0..rows.len()).map(|_| random(&mut seed)).collect();
             for cluster in &plan.clusters {
-                factorize(&plan, cluster, &parts, &mut values, &mut Vec::new());
+                factorize(&plan, cluster, &parts, (&mut values, &mut scratch), processor);
                 let mut y = vec![0.0; cluster.unknowns as usize];
                 for node in plan.nodes_of(cluster) {
                     let joint = &joints[node.joint as usize];
@@ -287,7 +283,7 @@ mod tests {
                         *y *= f64::from(u8::from(row.engaged));
                     }
                 }
-                solve(&plan, cluster, &values, &mut y, &mut Vec::new());
+                solve(&plan, cluster, (&values, &mut scratch), &mut y, processor);
                 for node in plan.nodes_of(cluster) {
                     let joint = &joints[node.joint as usize];
                     solution[joint.first..joint.end].copy_from_slice(node.of(&mut y));

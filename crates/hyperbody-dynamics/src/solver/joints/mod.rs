@@ -30,8 +30,9 @@
 //! |---|---|
 //! | `place` | where jointed bodies are, and will be, within the step |
 //! | `geometry` | coordinates of a joint and their levers |
-//! | `cluster` | which joints are solved together, and in which order |
-//! | `factor`, `block` | factors of a cluster's system, and of a joint's own part |
+//! | `cluster`, `elimination`, `fronts` | which joints are solved together, in which order, and as which matrices |
+//! | `factor`, `panel` | factors of a cluster's system, and the arithmetic on them |
+//! | `block` | factors of a joint's own part |
 //! | `aim` | what each row wants, and the impulses it may have |
 //! | `solve` | the passes |
 //! | `tension` | light bodies under great loads |
@@ -39,8 +40,11 @@
 mod aim;
 mod block;
 mod cluster;
+mod elimination;
 mod factor;
+mod fronts;
 mod geometry;
+mod panel;
 mod place;
 #[cfg(test)]
 mod rank;
@@ -52,6 +56,7 @@ use hyperbody_math::{Bivector, Matrix, Vector};
 
 use super::bodies::{MAX_PLANES, SolverBody};
 use super::gyro::Gyro;
+use super::machine::Processor;
 use super::softness::Softness;
 use super::{Real, SolverInput};
 use crate::Tuning;
@@ -59,6 +64,7 @@ use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::{Joint, RowSpec, WORLD};
 use cluster::{Link, Plan};
+use factor::Scratch;
 pub(crate) use place::Moment;
 use place::Place;
 pub(crate) use solve::Pass;
@@ -143,9 +149,9 @@ pub(crate) struct Joints<const N: usize> {
     own: Vec<f64>,
     links: Vec<Link>,
     plan: Plan,
-    /// Factors of all clusters, and vectors that their making and solving needs.
+    /// Factors of all clusters, and room for what their making and solving needs.
     factors: Vec<f64>,
-    scratch: Vec<f64>,
+    scratch: Scratch,
     unknowns: Vec<f64>,
 }
 
@@ -328,4 +334,5 @@ pub(crate) struct Moving<'a, const N: usize> {
     pub(crate) bodies: &'a [SolverBody<N>],
     pub(crate) gyros: &'a [Gyro<N>],
     pub(crate) state: &'a mut [Real],
+    pub(crate) processor: Processor,
 }

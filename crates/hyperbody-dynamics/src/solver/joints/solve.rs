@@ -60,7 +60,8 @@ impl<const N: usize> Joints<N> {
         let (joints, rows, own, places) = (&self.joints, &self.rows, &self.own, &self.places);
         let parts = Parts { joints, rows, own, places, bodies: moving.bodies };
         let cluster = &self.plan.clusters[cluster];
-        factor::factorize(&self.plan, cluster, &parts, &mut self.factors, &mut self.scratch);
+        let numbers = (self.factors.as_mut_slice(), &mut self.scratch);
+        factor::factorize(&self.plan, cluster, &parts, numbers, moving.processor);
     }
 
     /// Accelerations act for one more substep of length `h`, at the same place.
@@ -159,7 +160,8 @@ impl<const N: usize> Joints<N> {
                 if changed {
                     self.factorize(index, moving);
                 }
-                factor::solve(&self.plan, &cluster, &self.factors, &mut self.unknowns, &mut self.scratch);
+                let numbers = (self.factors.as_slice(), &mut self.scratch);
+                factor::solve(&self.plan, &cluster, numbers, &mut self.unknowns, moving.processor);
                 if !self.stop_at_ends(&cluster, moving, pass, h) {
                     break;
                 }
