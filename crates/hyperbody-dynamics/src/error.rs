@@ -24,8 +24,10 @@ pub enum WorldErrorKind {
     BadShape,
     /// The call does not fit this kind of body or joint.
     NotAllowed,
-    /// No more room: 2³² − 1 bodies, joints or colliders.
+    /// No more room: 2³² − 1 bodies, joints or colliders, or the memory that a past may take.
     Full,
+    /// The past does not hold that moment, or no longer.
+    NotHeld,
 }
 
 impl WorldError {

@@ -9,7 +9,7 @@
 //! | [`events`] | touches, sleep and broken joints of the last step |
 //! | [`filter`] | who may touch whom: groups and masks, pairs switched off |
 //! | [`rules`] | sensors, one-way bodies, a say in contacts |
-//! | [`snapshot`] | the whole state, to go back to, and as bytes |
+//! | [`snapshot`] | the whole state, to go back to, by so many steps, and as bytes |
 //! | [`material`] | friction, restitution, density, resistance to rolling and twisting, rules by which two combine |
 //! | [`tuning`] | every tunable number, with its reason |
 //! | `step` | the stages of one step, in order |
@@ -71,8 +71,8 @@ pub use measure::Energy;
 pub use narrow_phase::ContactRef;
 pub use queries::{BodyHit, BodyProjection, BodySeparation, BodyShapeHit, Queries, QueryFilter, QueryScratch};
 pub use rules::{ContactHook, HookedContact};
-pub use snapshot::Snapshot;
 pub use snapshot::bytes::{SnapshotError, SnapshotErrorKind};
+pub use snapshot::{Rewind, Snapshot};
 pub use timings::StageTimings;
 pub use tuning::Tuning;
 pub use vetting::POSITION_LIMIT;

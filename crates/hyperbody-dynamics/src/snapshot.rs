@@ -5,12 +5,13 @@
 //! with whom, the slots and generations from which the next handles come. What it leaves out is remade by each step (buffers of
 //! the solver) or is not the world's (threads, clock, contact hook).
 //!
-//! [`bytes`] makes it a save game: bytes with a version and a checksum, from which any process goes on to the bit.
+//! [`bytes`] makes it a save game: bytes with a version and a checksum, from which any process goes on to the bit. [`Rewind`] holds one a step, to go back by so many steps.
 
 mod assemble;
 pub mod bytes;
 mod check;
 mod parts;
+mod rewind;
 
 use hyperbody_collision::DynamicTree;
 use hyperbody_math::Vector;
@@ -24,6 +25,7 @@ use crate::joint::Joint;
 use crate::pairs::Pairs;
 use crate::world::{Collider, Motion};
 use crate::{BodyHandle, JointHandle, Tuning, World};
+pub use rewind::Rewind;
 
 /// The state of a world at one moment, between two steps.
 ///

@@ -57,8 +57,8 @@ pub mod prelude {
     pub use hyperbody_dynamics::{
         BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, CombineRule, ContactEvent, ContactHook, ContactPhase, Energy,
         Events, Freedom, Groups, HookedContact, JointDef, JointHandle, JointRef, Material, Motor, QueryFilter,
-        QueryScratch, SensorEvent, SensorPhase, Snapshot, SnapshotError, Spring, StageTimings, Tuning, World, WorldDef,
-        WorldError,
+        QueryScratch, Rewind, SensorEvent, SensorPhase, Snapshot, SnapshotError, Spring, StageTimings, Tuning, World,
+        WorldDef, WorldError,
     };
     pub use hyperbody_geometry::{GeometryError, Polytope, Shape};
     pub use hyperbody_math::{Bivector, Matrix, Pose, Rotation, Rotor, Vector};

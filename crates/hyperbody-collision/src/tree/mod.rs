@@ -158,6 +158,12 @@ impl<const N: usize> DynamicTree<N> {
         }
     }
 
+    /// Memory that its nodes take, bytes.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        size_of_val(&*self.nodes)
+    }
+
     /// Total size of the inner boxes in parts of the root's: the expected cost of a query, up to a constant. Zero for
     /// fewer than two boxes. Costs one pass over the tree.
     #[must_use]
