@@ -3,10 +3,9 @@
 //! Sleepers wake by whole islands (`islands`), so no body is left hanging on a sleeping neighbour that has gone.
 
 use crate::body::Body;
-use crate::handle::Arena;
 use crate::narrow_phase::velocity_near;
 use crate::pairs::{Pair, PairRole, Pairs};
-use crate::{BodyHandle, BodyKind, World};
+use crate::{BodyKind, World};
 
 impl<const N: usize> World<N> {
     /// Wakes the islands of the bodies that the user touched since the last step.
@@ -35,8 +34,6 @@ impl<const N: usize> World<N> {
         }
         requests.clear();
         self.wake_requests = requests;
-        let bodies: &Arena<Body<N>, BodyHandle> = &self.bodies;
-        self.quarantined.retain(|&handle| bodies.get(handle).is_some_and(|body| body.quarantined));
     }
 
     /// Drops the pairs of a body that are no longer allowed or have become of another kind; the broad phase finds anew what

@@ -5,8 +5,7 @@ use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Pose, Vector};
 
-use crate::balls::is_ball;
-use crate::body::Body;
+use crate::body::{Body, prepare};
 use crate::continuous::{Continuous, PieceCore};
 use crate::events::Events;
 use crate::filter::IgnoredPairs;
@@ -17,7 +16,7 @@ use crate::pairs::Pairs;
 use crate::rules::Hook;
 use crate::seams::Seams;
 use crate::solver::Solver;
-use crate::vetting::{POSITION_LIMIT, in_bounds};
+use crate::vetting::POSITION_LIMIT;
 use crate::{
     BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, JointHandle, StageTimings, Tuning, WorldError, WorldErrorKind,
 };
@@ -217,13 +216,7 @@ impl<const N: usize> World<N> {
     /// # Errors
     /// If the definition is not valid (see [`BodyDef`]); nothing is added then.
     pub fn add_body(&mut self, def: BodyDef<N>) -> Result<BodyHandle, WorldError> {
-        let mut body = Body::new(def)?;
-        if !in_bounds(body.centre) {
-            return Err(out_of_bounds(body.centre));
-        }
-        let pieces = body.shape.pieces();
-        body.radius = reach(&pieces, body.centre_in_body);
-        body.is_ball = is_ball(&pieces, body.centre_in_body);
+        let (body, pieces) = prepare(def)?;
         let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for bodies");
         let handle = self.bodies.insert(body).map_err(|_| full())?;
         for (body_from_collider, piece) in pieces {
@@ -232,7 +225,7 @@ impl<const N: usize> World<N> {
         Ok(handle)
     }
 
-    fn add_collider(&mut self, body_slot: u32, body_from_collider: Pose<N>, piece: Piece<N>) {
+    pub(crate) fn add_collider(&mut self, body_slot: u32, body_from_collider: Pose<N>, piece: Piece<N>) {
         let Some(body) = self.bodies.at_mut(body_slot) else { return };
         let slot = self.free_colliders.pop().unwrap_or_else(|| {
             self.colliders.push(None);
@@ -283,16 +276,28 @@ impl<const N: usize> World<N> {
         for joint in joints {
             self.remove_joint(joint)?;
         }
-        for pair in self.pairs.iter().filter(|pair| pair.body_a == handle.index || pair.body_b == handle.index) {
-            let partner = if pair.body_a == handle.index { pair.body_b } else { pair.body_a };
+        self.forget_contacts_of(handle.index);
+        let Some(body) = self.bodies.remove(handle) else { return Err(stale("body")) };
+        self.remove_colliders(body.colliders);
+        self.ignored.forget_body(handle.index);
+        self.quarantined.retain(|&other| other != handle);
+        Ok(())
+    }
+
+    /// Drops the pairs of a body, and wakes it and what is in them.
+    pub(crate) fn forget_contacts_of(&mut self, slot: u32) {
+        for pair in self.pairs.iter().filter(|pair| pair.body_a == slot || pair.body_b == slot) {
+            let partner = if pair.body_a == slot { pair.body_b } else { pair.body_a };
             if self.bodies.at(partner).is_some_and(|body| body.kind == BodyKind::Dynamic) {
                 self.wake_requests.push(partner);
             }
         }
-        self.pairs.retain(|pair| pair.body_a != handle.index && pair.body_b != handle.index);
-        self.islands.wake_body(handle.index, &mut self.bodies);
-        let Some(body) = self.bodies.remove(handle) else { return Err(stale("body")) };
-        for slot in body.colliders {
+        self.pairs.retain(|pair| pair.body_a != slot && pair.body_b != slot);
+        self.islands.wake_body(slot, &mut self.bodies);
+    }
+
+    pub(crate) fn remove_colliders(&mut self, slots: Vec<u32>) {
+        for slot in slots {
             if let Some(collider) = self.colliders[slot as usize].take() {
                 match collider.proxy {
                     Some(proxy) => self.tree.remove(proxy),
@@ -301,9 +306,6 @@ impl<const N: usize> World<N> {
             }
             self.free_colliders.push(slot);
         }
-        self.ignored.forget_body(handle.index);
-        self.quarantined.retain(|&other| other != handle);
-        Ok(())
     }
 
     /// A body to read, or `None` if the handle is stale.
@@ -316,7 +318,8 @@ impl<const N: usize> World<N> {
     #[must_use]
     pub fn body_mut(&mut self, handle: BodyHandle) -> Option<BodyMut<'_, N>> {
         let body = self.bodies.get_mut(handle)?;
-        Some(BodyMut { body, wake: &mut self.wake_requests, slot: handle.index })
+        let (wake, quarantined) = (&mut self.wake_requests, &mut self.quarantined);
+        Some(BodyMut { body, wake, quarantined, slot: handle.index })
     }
 
     /// All bodies in the order of their slots.

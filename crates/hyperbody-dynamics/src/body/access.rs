@@ -6,7 +6,7 @@ use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 use super::{Body, BodyKind, def::check_side};
 use crate::vetting::in_bounds;
 use crate::world::out_of_bounds;
-use crate::{Groups, Material, WorldError, error::WorldErrorKind};
+use crate::{BodyHandle, Groups, Material, WorldError, error::WorldErrorKind};
 
 /// A body as it is between two steps.
 #[derive(Clone, Copy, Debug)]
@@ -149,6 +149,8 @@ pub struct BodyMut<'a, const N: usize> {
     pub(crate) body: &'a mut Body<N>,
     /// Set when the body must be woken with its island, which the borrow of one body can't reach.
     pub(crate) wake: &'a mut Vec<u32>,
+    /// Those in quarantine, from which it is struck when it comes back.
+    pub(crate) quarantined: &'a mut Vec<BodyHandle>,
     pub(crate) slot: u32,
 }
 
@@ -185,6 +187,8 @@ impl<const N: usize> BodyMut<'_, N> {
         }
         if self.body.quarantined {
             self.body.quarantined = false;
+            let slot = self.slot;
+            self.quarantined.retain(|handle| handle.index != slot);
             self.body.force = Vector::ZERO;
             self.body.torque = Bivector::ZERO;
             self.body.velocity = Vector::ZERO;

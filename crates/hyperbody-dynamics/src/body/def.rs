@@ -91,6 +91,13 @@ impl<const N: usize> BodyDef<N> {
         Self::new(shape).kind(BodyKind::Static)
     }
 
+    /// Sets [`BodyDef::shape`].
+    #[must_use]
+    pub fn shape(mut self, shape: Shape<N>) -> Self {
+        self.shape = shape;
+        self
+    }
+
     /// Sets [`BodyDef::kind`].
     #[must_use]
     pub fn kind(mut self, kind: BodyKind) -> Self {

@@ -2,8 +2,10 @@
 
 mod access;
 mod def;
+mod redefine;
 mod state;
 
 pub use access::{BodyMut, BodyRef};
 pub use def::{BodyDef, BodyKind};
+pub(crate) use redefine::prepare;
 pub(crate) use state::{Body, Inertia, check_mass};

@@ -23,6 +23,7 @@ mod queries;
 mod queries_limits;
 mod queries_shapes;
 mod random_operations;
+mod redefine;
 mod rewind;
 mod robustness;
 mod round_contacts;

@@ -37,6 +37,15 @@ pub(crate) fn run() -> Outcome {
     step_for(&mut world, 3.0);
     claim(world.body(pushed).is_some_and(|body| body.is_sleeping()), "what rests falls asleep")?;
     world.body_mut(pushed).ok_or("it is there")?.wake();
+
+    // It grows to twice its size in all four directions, in place, and keeps its handle.
+    world.set_shape(pushed, Shape::cuboid([1.0; 4])?)?;
+    step_for(&mut world, 4.0);
+    let grown = world.body(pushed).ok_or("it is there")?;
+    claim(
+        (grown.position()[1] - 1.0).abs() < 0.01 && grown.mass() > 15.9,
+        "a body that grows is pushed up, and rests",
+    )?;
     world.remove_body(floating)?;
     claim(world.body(floating).is_none(), "the handle of a body that was removed is refused")
 }

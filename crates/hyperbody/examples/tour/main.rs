@@ -19,7 +19,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 type Stop = (&'static str, &'static str, fn() -> Outcome);
 
 const STOPS: [Stop; 7] = [
-    ("bodies", "kinds of bodies, forces, conveyors, led platforms, rest", bodies::run),
+    ("bodies", "kinds of bodies, forces, conveyors, led platforms, rest, growth", bodies::run),
     ("contacts", "materials, what touched and how hard, one's own rules", contacts::run),
     ("filters", "who meets whom: groups, pairs, sensors, one-way floors", filters::run),
     ("joints", "a door with a motor, a spring, a rope, a hand, what breaks", joints::run),
