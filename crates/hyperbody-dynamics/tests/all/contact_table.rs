@@ -1,9 +1,9 @@
-//! Closed forms of contact and motion, in every dimension: rolling, sliding, sticking, impact, inclines, the pendulum,
+//! Closed forms of contact and motion, in every dimension: rolling, sliding, sticking, impact, inclines,
 //! the projectile. Every motion stays in one plane, so the forms hold for each n with the moments of its bodies.
 
 use crate::common::*;
-use hyperbody_dynamics::{BodyDef, JointDef, World, WorldDef};
-use hyperbody_math::{Bivector, Rotation, Vector};
+use hyperbody_dynamics::{BodyDef, World, WorldDef};
+use hyperbody_math::{Bivector, Vector};
 
 macro_rules! every_dimension {
     ($($name:ident),* $(,)?) => {$(
@@ -27,7 +27,6 @@ every_dimension!(
     box_rests_on_a_gentle_incline,
     box_slides_on_a_steep_incline,
     tall_box_tips,
-    compound_pendulum,
     projectile,
 );
 
@@ -184,57 +183,6 @@ fn tall_box_tips<const N: usize>() {
         let upright = body.rotation().matrix()[1][1];
         assert_eq!(upright < 0.95, falls, "at {angle} rad, with the limit at {limit}, uprightness is {upright}");
     }
-}
-
-/// T = 4 K(sin(θ₀/2)) √(I_p/(m g d)), I_p = m(J_i + J_j) + m d², in every plane that holds gravity.
-fn compound_pendulum<const N: usize>() {
-    let half_extents = Vector::<N>::from_fn(|i| 0.1 + 0.05 * i as f64);
-    let (distance, amplitude) = (0.8, 1.0_f64);
-    for vertical in 0..N {
-        let across = (vertical + 1) % N;
-        let mut world = World::<N>::new(WorldDef {
-            gravity: Vector::unit(vertical) * -GRAVITY,
-            sleeping: false,
-            dt: 1.0 / 240.0,
-            ..WorldDef::default()
-        })
-        .unwrap();
-        let pivot = world.add_body(BodyDef::fixed(ball(0.01)).position(Vector::ZERO)).unwrap();
-        let rotation = Rotation::in_plane(vertical, across, -amplitude);
-        let hanging = Vector::unit(vertical) * -distance;
-        let bob = BodyDef::new(cuboid(half_extents)).rotation(rotation).position(rotation.rotate(hanging));
-        let bob = world.add_body(bob).unwrap();
-        let joint = JointDef::ball(pivot, bob, Vector::ZERO, -hanging);
-        world.add_joint(joint).unwrap();
-        let mean = |i: usize| half_extents[i] * half_extents[i] / 3.0;
-        let moment = mean(vertical) + mean(across) + distance * distance;
-        let expected = 4.0 * elliptic_k((amplitude / 2.0).sin()) * (moment / (GRAVITY * distance)).sqrt();
-        let period = measured_period(&mut world, bob, across, 3);
-        assert_close(&format!("period in plane ({vertical}, {across})"), period, expected, 0.005);
-    }
-}
-
-/// Mean time between every second zero of a coordinate, interpolated within steps.
-fn measured_period<const N: usize>(
-    world: &mut World<N>,
-    body: hyperbody_dynamics::BodyHandle,
-    axis: usize,
-    periods: usize,
-) -> f64 {
-    let mut zeros = Vec::new();
-    let mut last = world.body(body).unwrap().position()[axis];
-    for _ in 0..100_000 {
-        world.step();
-        let now = world.body(body).unwrap().position()[axis];
-        if last * now < 0.0 {
-            zeros.push(world.time() - world.dt() * now / (now - last));
-        }
-        last = now;
-        if zeros.len() > 2 * periods {
-            return (zeros[2 * periods] - zeros[0]) / periods as f64;
-        }
-    }
-    panic!("the pendulum does not swing");
 }
 
 /// x_k = x₀ + k h v₀ + ½ g h² k(k+1), exactly, with h the substep.

@@ -19,6 +19,7 @@ mod joint_kinds;
 mod joint_loads;
 mod materials;
 mod momenta;
+mod pendulums;
 mod queries;
 mod queries_limits;
 mod queries_shapes;
