@@ -14,6 +14,7 @@ mod free_top_proportional;
 mod free_top_runs;
 mod free_top_stability;
 mod free_top_step;
+mod joint_conflicts;
 mod joint_hand;
 mod joint_kinds;
 mod joint_loads;

@@ -27,6 +27,11 @@ const FORESEEN: f64 = 1e-4;
 /// Least share of a spring's response that its joint can leave it.
 const LEAST_FREE: f64 = 1e-6;
 
+/// The part of its length by which a rigid rod is drawn back at most. Two rods that contradict each other pull as hard as they are
+/// off; with k = m ω² a pull of k·ΔL lets what hangs between them swing sideways at √(2 k ΔL/(m L)), which is faster than substeps can follow
+/// from an eighth of the length on.
+const MOST_STRETCH: f64 = 0.05;
+
 /// Which pass.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Pass {
@@ -304,6 +309,7 @@ impl<const N: usize> JointRows<N> {
                 Role::Held(_) if !self.exact => 0.0,
                 // Not by levers, or what hangs on a long arm would give way far too much.
                 Role::Held(_) if !turns => of_masses,
+                Role::Held(_) => row.response_of_own_moments((a, b)),
                 Role::Sprung(_) => self.response_while_held(own, index),
                 _ => row.response,
             };
@@ -339,10 +345,13 @@ impl<const N: usize> JointRows<N> {
 
     /// The speed with which the spring of a held row draws back, m/s or rad/s.
     fn back(&self, row: &Row<N>) -> f64 {
-        match row.spec.role {
-            Role::Held(place) => self.soft.bias_rate * (row.value - place),
-            _ => 0.0,
+        let Role::Held(place) = row.spec.role else { return 0.0 };
+        let mut off = row.value - place;
+        if row.spec.coordinate == Coordinate::Length && !self.is_soft {
+            let most = MOST_STRETCH * row.value.max(place);
+            off = off.clamp(-most, most);
         }
+        self.soft.bias_rate * off
     }
 
     /// What an impulse changes the rate of a row by while the held rows of the joint hold: K_rr − K_rh K_hh⁻¹ K_hr.
@@ -378,6 +387,21 @@ impl<const N: usize> JointRows<N> {
 }
 
 impl<const N: usize> Row<N> {
+    /// The response of a turn without the moments that bodies got on top for this step. A joint that gave way less the more they got would
+    /// press harder for that, and they would get yet more: two welds that contradict each other drove their body that way to
+    /// infinity.
+    fn response_of_own_moments(&self, bodies: (&SolverBody<N>, &SolverBody<N>)) -> f64 {
+        if bodies.0.added_moment == 0.0 && bodies.1.added_moment == 0.0 {
+            return self.response;
+        }
+        let of = |arm: &[f64], body: &SolverBody<N>| -> f64 {
+            let inverse = &body.inverse_sqrt_moments[..Sizes::<N>::K];
+            let own = |inverse: &f64| (1.0 - body.added_moment * inverse * inverse).max(f64::EPSILON);
+            arm.iter().zip(inverse).map(|(arm, inverse)| arm * arm / own(inverse)).sum()
+        };
+        of(&self.arm_a, bodies.0) + of(&self.arm_b, bodies.1)
+    }
+
     /// Rate of the coordinate, impulses included.
     fn rate(&self, a: &Place<N>, b: &Place<N>, moving: &Moving<'_, N>) -> f64 {
         let on = |place: &Place<N>, arm: &[f64]| {
