@@ -65,7 +65,7 @@ pub use error::{WorldError, WorldErrorKind};
 pub use events::{BrokenJoint, ContactEvent, ContactPhase, Events, SensorEvent, SensorPhase};
 pub use filter::Groups;
 pub use handle::{BodyHandle, JointHandle};
-pub use joint::{Freedom, JointDef, JointRef, Motor, Spring};
+pub use joint::{Coupling, Freedom, JointDef, JointRef, Motor, Spring};
 pub use material::{CombineRule, Material};
 pub use measure::Energy;
 pub use narrow_phase::ContactRef;

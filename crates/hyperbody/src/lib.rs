@@ -55,10 +55,10 @@ pub mod prelude {
     pub use hyperbody_collision::Ray;
     pub use hyperbody_collision::query::Motion;
     pub use hyperbody_dynamics::{
-        BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, CombineRule, ContactEvent, ContactHook, ContactPhase, Energy,
-        Events, Freedom, Groups, HookedContact, JointDef, JointHandle, JointRef, Material, Motor, QueryFilter,
-        QueryScratch, Rewind, SensorEvent, SensorPhase, Snapshot, SnapshotError, Spring, StageTimings, Tuning, World,
-        WorldDef, WorldError,
+        BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, CombineRule, ContactEvent, ContactHook, ContactPhase,
+        Coupling, Energy, Events, Freedom, Groups, HookedContact, JointDef, JointHandle, JointRef, Material, Motor,
+        QueryFilter, QueryScratch, Rewind, SensorEvent, SensorPhase, Snapshot, SnapshotError, Spring, StageTimings,
+        Tuning, World, WorldDef, WorldError,
     };
     pub use hyperbody_geometry::{GeometryError, Polytope, Shape};
     pub use hyperbody_math::{Bivector, Matrix, Pose, Rotation, Rotor, Vector};

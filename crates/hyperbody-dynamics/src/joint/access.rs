@@ -3,6 +3,7 @@
 use hyperbody_math::{Bivector, Pose, Vector};
 
 use super::{Joint, JointDef, WORLD};
+use crate::body::Body;
 use crate::world::{is_pair_of, stale};
 use crate::{BodyHandle, BodyKind, JointHandle, World, WorldError, WorldErrorKind};
 
@@ -77,6 +78,7 @@ impl<const N: usize> World<N> {
             ));
         }
         let collide = def.collide;
+        let def = self.meshed(def)?;
         let full = || WorldError::new(WorldErrorKind::Full, "the world has no more room for joints");
         let handle = self.joints.insert(Joint::new(def, groups, end_a, end_b)).map_err(|_| full())?;
         for slot in [end_a.0, end_b.0] {
@@ -188,6 +190,7 @@ impl<const N: usize> World<N> {
                 "a joint keeps its bodies; remove it and add another one",
             ));
         }
+        let def = self.meshed(def)?;
         let centre = |slot| self.bodies.at(slot).map_or(Vector::ZERO, |body| body.centre_in_body);
         let (a, b) = (joint.body_a, joint.body_b);
         let mut new = Joint::new(def, groups, (a, centre(a)), (b, centre(b)));
@@ -205,6 +208,13 @@ impl<const N: usize> World<N> {
         }
         self.wake_ends(handle);
         Ok(())
+    }
+
+    /// The definition with what its coupling holds.
+    fn meshed(&self, def: JointDef<N>) -> Result<JointDef<N>, WorldError> {
+        let pose = |handle| self.bodies.get(handle).map_or(Pose::IDENTITY, Body::world_from_body);
+        let (a, b) = (def.a.map_or(Pose::IDENTITY, pose), pose(def.b));
+        def.meshed(&a, &b)
     }
 
     fn look_again(&mut self, body: u32) {

@@ -3,7 +3,7 @@
 use hyperbody_math::{Pose, Vector, planes};
 
 use super::freedom::check_spring;
-use super::{Freedom, Motor, Spring};
+use super::{Coupling, Freedom, Motor, Spring};
 use crate::{BodyHandle, WorldError, WorldErrorKind};
 
 /// Everything needed to make a joint. Start from one of the named joints, or from [`JointDef::free`] and lock what must not
@@ -27,6 +27,11 @@ pub struct JointDef<const N: usize> {
     pub planes: Vec<Freedom>,
     /// Least and greatest distance of the anchors, m; the greatest may be infinite.
     pub distance: Option<(f64, f64)>,
+    /// What makes one motion follow another, as teeth and threads do.
+    pub coupling: Option<Coupling>,
+    /// What the coupling holds: rad for gears, the sum of teeth times angles, else m. Default: as the bodies lie when the joint is
+    /// added, whose definition says it from then on.
+    pub phase: Option<f64>,
     /// What is locked is held by a spring of this frequency (Hz) and damping ratio, in place of rigidly.
     pub softness: Option<(f64, f64)>,
     /// Most force that a soft joint holds with, N. Default: infinite.
@@ -53,6 +58,8 @@ impl<const N: usize> JointDef<N> {
             axes: [Freedom::FREE; N],
             planes: vec![Freedom::FREE; planes::count(N)],
             distance: None,
+            coupling: None,
+            phase: None,
             softness: None,
             max_force: f64::INFINITY,
             max_torque: f64::INFINITY,
@@ -259,7 +266,8 @@ impl<const N: usize> JointDef<N> {
         self
     }
 
-    /// Numbers of translations and turns of `b` against `a` that the joint leaves free when nothing is at a limit.
+    /// Numbers of translations and turns of `b` against `a` that the joint leaves free when nothing is at a limit. A coupling
+    /// takes one more from both together.
     #[must_use]
     pub fn free_motions(&self) -> (usize, usize) {
         let held = |freedom: &&Freedom| !freedom.locked;
@@ -333,6 +341,14 @@ impl<const N: usize> JointDef<N> {
             return Err(WorldError::bad_number(format!(
                 "the distance lies between {least} and {greatest} m; the least must be 0 or more and finite, the greatest no smaller and above 0 (a ball joint keeps the distance 0)"
             )));
+        }
+        if let Some(coupling) = &self.coupling {
+            coupling.validate(&self.axes, &self.planes)?;
+        }
+        if let Some(phase) = self.phase
+            && !phase.is_finite()
+        {
+            return Err(WorldError::bad_number(format!("the phase of the coupling is {phase}; it must be finite")));
         }
         if let Some((hz, damping_ratio)) = self.softness {
             check_spring("the joint", hz, damping_ratio)?;

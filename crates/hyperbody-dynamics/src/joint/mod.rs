@@ -20,6 +20,9 @@
 //! | [`JointDef::distance`], [`JointDef::rope`] | the distance of two points, or its upper bound | N − 1 (N) | N(N−1)/2 |
 //! | [`JointDef::mouse`] | nothing: a spring of limited force draws a point to a target | N | N(N−1)/2 |
 //!
+//! | [`JointDef::gear`], [`JointDef::rack`] | what rolls on each other: one number of both bodies ([`Coupling`]) | together N + N(N−1)/2 − 1 | |
+//! | [`JointDef::screw`] | a line and a plane: goes along as it turns | together 1 | |
+//!
 //! A hinge is the axle of k = N−2, the ball that of k = 0, the weld that of k = N−1 or N. In 2D the hinge *is* the ball; in
 //! 3D an axle keeps a line and is the hinge; from 4D on there are axles between: one that keeps a line in 4D leaves
 //! the three turns of the space across it.
@@ -35,6 +38,12 @@
 //! | slider | 1 + 0 | 1 + 0 | 1 + 0 | 1 + 0 | 1 + 0 |
 //! | distance | 1 + 1 | 2 + 3 | 3 + 6 | 4 + 10 | 5 + 15 |
 //!
+//! | free motions, together | 2D | 3D | 4D | 5D | 6D |
+//! |---|---|---|---|---|---|
+//! | gear | 2 | 5 | 9 | 14 | 20 |
+//! | rack | 2 | 5 | 9 | 14 | 20 |
+//! | screw | none | 1 | 1 | 1 | 1 |
+//!
 //! The numbers are those of a test that computes the rank of each joint's rows (`solver/joints`).
 //!
 //! # Which planes can be free together
@@ -49,11 +58,13 @@
 //! could be limited one by one.
 
 mod access;
+mod coupling;
 mod def;
 mod freedom;
 mod rows;
 
 pub use access::JointRef;
+pub use coupling::Coupling;
 pub use def::JointDef;
 pub use freedom::{Freedom, Motor, Spring};
 pub(crate) use rows::{Coordinate, Joint, Role, RowSpec, WORLD};

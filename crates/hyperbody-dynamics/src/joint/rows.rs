@@ -20,6 +20,8 @@ pub(crate) enum Coordinate {
     Angle(u8, u8),
     /// The distance of the anchors.
     Length,
+    /// What the coupling of the joint holds, m.
+    Coupled,
 }
 
 /// What becomes of it.
@@ -110,6 +112,9 @@ fn held_rows<const N: usize>(def: &JointDef<N>) -> Vec<RowSpec> {
         && least >= greatest
     {
         hold(Coordinate::Length, least);
+    }
+    if def.coupling.is_some() {
+        hold(Coordinate::Coupled, 0.0);
     }
     rows
 }

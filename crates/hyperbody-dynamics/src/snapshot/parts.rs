@@ -12,7 +12,7 @@ use crate::events::{BrokenJoint, ContactEvent, ContactPhase, Events, SensorEvent
 use crate::filter::{Groups, IgnoredPairs};
 use crate::handle::{Arena, BodyHandle, Handle, JointHandle, Slot};
 use crate::islands::Islands;
-use crate::joint::{Freedom, Joint, JointDef, Motor, Spring, WORLD};
+use crate::joint::{Coupling, Freedom, Joint, JointDef, Motor, Spring, WORLD};
 use crate::material::{CombineRule, Material};
 use crate::pairs::{Carried, Contact, Pair, PairRole, Pairs, Passage, Search};
 use crate::tuning::Tuning;
@@ -103,6 +103,8 @@ stored!(JointDef<N> {
     axes,
     planes,
     distance: open,
+    coupling,
+    phase,
     softness,
     max_force: wide,
     max_torque: wide,
@@ -110,6 +112,35 @@ stored!(JointDef<N> {
     break_torque: wide,
     collide,
 });
+
+/// The number of the kind, then axes and numbers; the definition of the joint says whether they can be.
+impl Stored for Coupling {
+    fn write(&self, out: &mut Writer) {
+        match *self {
+            Self::Gear { plane, teeth } => {
+                ((0_u8, plane), (teeth.0.cast_unsigned(), teeth.1.cast_unsigned())).write(out);
+            }
+            Self::Rack { plane, radius } => ((1_u8, plane), radius).write(out),
+            Self::Screw { plane, along, lead } => ((2_u8, plane), (along, lead)).write(out),
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
+        let (kind, plane): (u8, (u8, u8)) = Stored::read(from)?;
+        match kind {
+            0 => {
+                let (a, b): (u32, u32) = Stored::read(from)?;
+                Ok(Self::Gear { plane, teeth: (a.cast_signed(), b.cast_signed()) })
+            }
+            1 => Ok(Self::Rack { plane, radius: Stored::read(from)? }),
+            2 => {
+                let (along, lead) = Stored::read(from)?;
+                Ok(Self::Screw { plane, along, lead })
+            }
+            other => Err(from.error(format!("{other} stands for no coupling"))),
+        }
+    }
+}
 
 /// Rows and groups follow from the definition.
 impl<const N: usize> Stored for Joint<N> {

@@ -4,6 +4,7 @@ mod allocations;
 mod bullets;
 mod common;
 mod contact_table;
+mod couplings;
 mod events;
 mod filters;
 mod free_top_common;

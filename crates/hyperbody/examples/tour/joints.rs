@@ -49,5 +49,28 @@ pub(crate) fn run() -> Outcome {
     claim(
         (body(dragged)?.position() - Vector([12.0, 2.0, 0.0, 1.5])).norm() < 0.05,
         "the hand carried its body along w",
-    )
+    )?;
+    gears()
+}
+
+/// Two wheels that mesh, in the plane zw, on a carrier that floats: what the teeth press, the carrier takes.
+fn gears() -> Outcome {
+    let mut world = World::<4>::new(WorldDef { gravity: Vector::ZERO, ..WorldDef::default() })?;
+    let place = |z: f64| Pose::from_translation(Vector([0.0, 0.0, z, 0.0]));
+    let carrier = world.add_body(BodyDef::new(Shape::cuboid([0.1, 0.1, 0.6, 0.1])?).groups(Groups::NONE))?;
+    let mut wheel = |z: f64, spin: f64| -> Result<BodyHandle, WorldError> {
+        let wheel = BodyDef::new(Shape::ball(0.3)?).position([0.0, 0.0, z, 0.0]).groups(Groups::NONE);
+        let wheel = world.add_body(wheel.angular_velocity(Bivector::plane(2, 3, spin)))?;
+        world.add_joint(JointDef::hinge(carrier, wheel, place(z), Pose::IDENTITY, (2, 3)))?;
+        Ok(wheel)
+    };
+    let (small, large) = (wheel(-0.5, 9.0)?, wheel(0.5, 0.0)?);
+    world.add_joint(JointDef::gear(small, large, Pose::IDENTITY, Pose::IDENTITY, (2, 3), (20, 30)))?;
+    let spin = world.angular_momentum();
+    step_for(&mut world, 60.0);
+    let rate = |body| Ok::<_, &str>(world.body(body).ok_or("it is there")?.angular_velocity().get(2, 3));
+    let (small, large, carrier) = (rate(small)?, rate(large)?, rate(carrier)?);
+    let off = 20.0 * (small - carrier) + 30.0 * (large - carrier);
+    claim(off.abs() < 1e-3, "after a minute, wheels of 20 and 30 teeth turn against their carrier as 30 to −20")?;
+    claim((world.angular_momentum() - spin).norm() < 1e-5 * spin.norm(), "and have the angular momentum they had")
 }

@@ -22,7 +22,7 @@ const STOPS: [Stop; 7] = [
     ("bodies", "kinds of bodies, forces, conveyors, led platforms, rest, growth", bodies::run),
     ("contacts", "materials, what touched and how hard, one's own rules", contacts::run),
     ("filters", "who meets whom: groups, pairs, sensors, one-way floors", filters::run),
-    ("joints", "a door with a motor, a spring, a rope, a hand, what breaks", joints::run),
+    ("joints", "a door with a motor, a spring, a rope, a hand, what breaks, gears", joints::run),
     ("queries", "rays, moving shapes, what is near", queries::run),
     ("sections", "the slice through w = 0 of a body of four dimensions", sections::run),
     ("state", "going back, trying what would happen, the same bits", state::run),

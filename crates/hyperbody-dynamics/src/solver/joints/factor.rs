@@ -238,6 +238,7 @@ mod tests {
                     frame_a: Matrix::IDENTITY,
                     frame_b: Matrix::IDENTITY,
                     groups: [0; N],
+                    coupling: None,
                     first,
                     held: rows.len(),
                     end: rows.len(),

@@ -1,10 +1,12 @@
 //! Coordinates of a joint at given places of its bodies, and the levers by which velocities change them.
 
+use std::f64::consts::TAU;
+
 use hyperbody_math::{Bivector, Matrix, Rotation, Vector};
 
 use super::place::{Place, Spot};
 use super::{JointRows, Row};
-use crate::joint::Coordinate;
+use crate::joint::{Coordinate, Coupling};
 use crate::solver::bodies::{MAX_PLANES, SolverBody};
 
 /// How the second frame of a joint lies in the first.
@@ -12,13 +14,15 @@ pub(super) struct Geometry<const N: usize> {
     offset_a: Vector<N>,
     offset_b: Vector<N>,
     /// Anchor of b minus anchor of a, world.
-    gap: Vector<N>,
+    pub(super) gap: Vector<N>,
     /// Axes of the first frame in the world, as columns.
     pub(super) axes: Matrix<N>,
     /// Second frame in the first, if some row asks.
-    relative: Matrix<N>,
+    pub(super) relative: Matrix<N>,
     /// Logarithm of what the turn has beside the free groups, in the first frame.
     error: Bivector<N>,
+    /// What is coupled, and what that holds.
+    coupling: Option<(Coupling, f64)>,
 }
 
 impl<const N: usize> JointRows<N> {
@@ -32,6 +36,7 @@ impl<const N: usize> JointRows<N> {
             axes: Matrix::IDENTITY,
             relative: Matrix::IDENTITY,
             error: Bivector::ZERO,
+            coupling: self.coupling,
         };
         let coordinate = |row: &Row<N>| row.spec.coordinate;
         let framed = |row: &Row<N>| !matches!(coordinate(row), Coordinate::Point(_) | Coordinate::Length);
@@ -105,7 +110,18 @@ impl<const N: usize> Geometry<N> {
                 hyperbody_math::scalar::atan2(q[j][i] - q[i][j], q[i][i] + q[j][j])
             }
             Coordinate::Length => self.gap.norm(),
+            Coordinate::Coupled => self.coupling.map_or(0.0, |(coupling, phase)| self.off_mesh(&coupling, phase)),
         }
+    }
+
+    /// A change of a coordinate, the short way round: angles jump from π to −π, couplings by a tooth or a turn.
+    pub(super) fn shortest(&self, coordinate: Coordinate, change: f64) -> f64 {
+        let period = match (coordinate, &self.coupling) {
+            (Coordinate::Angle(..), _) => TAU,
+            (Coordinate::Coupled, Some((coupling, _))) => self.mesh_period(coupling),
+            _ => return change,
+        };
+        change - period * (change / period).round()
     }
 
     /// Where the impulse between two anchors acts, as offsets from both centres. Between two moving bodies it is one point,
@@ -132,6 +148,7 @@ impl<const N: usize> Geometry<N> {
                 row.arm_b = lever(b, body_b, &plane);
             }
             coordinate => {
+                let mut twist = None;
                 let (direction, offset_a, offset_b) = match coordinate {
                     Coordinate::Point(axis) => {
                         let (offset_a, offset_b) = self.meeting_point(body_a, body_b);
@@ -140,6 +157,13 @@ impl<const N: usize> Geometry<N> {
                     // The axis turns with a: what counts is a's velocity where b's anchor is.
                     Coordinate::Slide(axis) => {
                         (self.axes.column(usize::from(axis)), self.offset_a + self.gap, self.offset_b)
+                    }
+                    // One point of the world for both, so that angular momentum is kept.
+                    Coordinate::Coupled => {
+                        let Some((coupling, _)) = &self.coupling else { return };
+                        let mesh = self.mesh(coupling);
+                        twist = mesh.twist;
+                        (mesh.direction, self.offset_a + mesh.point, self.offset_b - self.gap + mesh.point)
                     }
                     _ => (self.gap.try_normalize().unwrap_or(Vector::unit(0)), self.offset_a, self.offset_b),
                 };
@@ -152,6 +176,16 @@ impl<const N: usize> Geometry<N> {
                 row.acceleration = direction.dot(on_b - on_a);
                 row.arm_a = arm(a, body_a, offset_a, direction);
                 row.arm_b = arm(b, body_b, offset_b, direction);
+                if let Some(twist) = twist {
+                    row.base += twist.dot(&b.spin) - twist.dot(&a.spin);
+                    row.acceleration += twist.dot(&b.spin_up) - twist.dot(&a.spin_up);
+                    for (arm, more) in row.arm_a.iter_mut().zip(lever(a, body_a, &twist)) {
+                        *arm += more;
+                    }
+                    for (arm, more) in row.arm_b.iter_mut().zip(lever(b, body_b, &twist)) {
+                        *arm += more;
+                    }
+                }
             }
         }
     }

@@ -30,6 +30,7 @@
 //! |---|---|
 //! | `place` | where jointed bodies are, and will be, within the step |
 //! | `geometry` | coordinates of a joint and their levers |
+//! | `coupled` | where teeth and threads press |
 //! | `cluster`, `elimination`, `fronts` | which joints are solved together, in which order, and as which matrices |
 //! | `factor`, `panel` | factors of a cluster's system, and the arithmetic on them |
 //! | `block` | factors of a joint's own part |
@@ -40,6 +41,7 @@
 mod aim;
 mod block;
 mod cluster;
+mod coupled;
 mod elimination;
 mod factor;
 mod fronts;
@@ -62,7 +64,7 @@ use super::{Real, SolverInput};
 use crate::Tuning;
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::joint::{Joint, RowSpec, WORLD};
+use crate::joint::{Coupling, Joint, RowSpec, WORLD};
 use cluster::{Link, Plan};
 use factor::Scratch;
 pub(crate) use place::Moment;
@@ -115,6 +117,8 @@ struct JointRows<const N: usize> {
     frame_a: Matrix<N>,
     frame_b: Matrix<N>,
     groups: [u8; N],
+    /// What is coupled, and what that holds.
+    coupling: Option<(Coupling, f64)>,
     /// Its rows; those that are held stand first.
     first: usize,
     held: usize,
@@ -313,6 +317,7 @@ impl<const N: usize> JointRows<N> {
             frame_a: *frame_a.matrix(),
             frame_b: *(body_b.rotation * frame_b).matrix(),
             groups: joint.groups,
+            coupling: def.coupling.map(|coupling| (coupling, def.phase.unwrap_or(0.0))),
             first,
             held: first + joint.held,
             end: first + joint.rows.len(),

@@ -34,8 +34,8 @@ fn rank(mut rows: Vec<Vec<f64>>) -> usize {
     rank
 }
 
-/// Free translations and turns: N less the rank of the held rows, as seen by the translations and turns of b about its anchor.
-fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize) {
+/// Free translations, turns, and both together: N less the rank of the held rows, as seen by the translations and turns of b about its anchor.
+fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize, usize) {
     let joint = Joint::new(def.clone(), def.groups().expect("closed"), (WORLD, Vector::ZERO), (0, Vector::ZERO));
     let body = SolverBody::with_unit_moments(1.0);
     let world = SolverBody { inverse_sqrt_mass: 0.0, ..body };
@@ -51,6 +51,7 @@ fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize) {
         frame_a: matrix(joint.frames().0),
         frame_b: matrix(joint.frames().1),
         groups: joint.groups,
+        coupling: def.coupling.map(|coupling| (coupling, 0.0)),
         first: 0,
         held: joint.held,
         end: joint.rows.len(),
@@ -73,7 +74,7 @@ fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize) {
         held.iter().map(|row| row.direction.iter().chain(row.arm_b[..planes::count(N)].iter().copied()).collect());
     let (translations, turns) = (rank(linear), rank(angular));
     assert_eq!(rank(both.collect()), held.len(), "the rows depend on each other");
-    (N - translations, planes::count(N) - turns)
+    (N - translations, planes::count(N) - turns, N + planes::count(N) - held.len())
 }
 
 fn check<const N: usize>() {
@@ -93,7 +94,8 @@ fn check<const N: usize>() {
     ];
     let page = include_str!("../../joint/mod.rs");
     for (name, def, free) in expected {
-        assert_eq!(free_motions(&def), free, "{name} in {N}D");
+        let (translations, turns, _) = free_motions(&def);
+        assert_eq!((translations, turns), free, "{name} in {N}D");
         assert_eq!(def.free_motions(), free, "what {name} in {N}D says of itself");
         let row = match name {
             "free" => "no joint",
@@ -108,6 +110,28 @@ fn check<const N: usize>() {
         };
         let cell = line.split('|').nth(N).map(str::trim);
         assert_eq!(cell, Some(format!("{} + {}", free.0, free.1).as_str()), "the table's {row} in {N}D");
+    }
+    check_couplings::<N>(page);
+}
+
+/// One row each, which depends on none of the others that the joint holds.
+fn check_couplings<const N: usize>(page: &str) {
+    let (frame, beside) = (Pose::<N>::IDENTITY, Pose::from_translation(Vector::unit(0) * -1.5));
+    let mut defs = vec![
+        ("gear", JointDef::gear(None, BODY, beside, frame, (0, 1), (12, 30)), N + planes::count(N) - 1),
+        ("rack", JointDef::rack(None, BODY, beside, frame, (0, 1), 0.4), N + planes::count(N) - 1),
+    ];
+    if N > 2 {
+        defs.push(("screw", JointDef::screw(None, BODY, frame, frame, (0, 1), N - 1, 0.1), 1));
+    }
+    for (name, def, free) in defs {
+        assert_eq!(free_motions(&def).2, free, "{name} in {N}D");
+        let line = page.lines().find(|line| line.starts_with(&format!("//! | {name} |"))).expect("a row of the table");
+        assert_eq!(
+            line.split('|').nth(N).map(str::trim),
+            Some(free.to_string().as_str()),
+            "the table's {name} in {N}D"
+        );
     }
 }
 

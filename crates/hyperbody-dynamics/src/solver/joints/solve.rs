@@ -10,12 +10,12 @@ use super::factor::{self, Parts};
 use super::geometry::response;
 use super::place::{Moment, Place};
 use super::{JointRows, Joints, Moving, Row, block};
-use crate::joint::{Coordinate, Role};
+use crate::joint::{Coordinate, Coupling, Role};
 use crate::solver::Real;
 use crate::solver::bodies::{Sizes, SolverBody};
 
-/// Most rows of a joint that are held: all of 6D.
-const MOST_HELD: usize = 6 + 15 + 1;
+/// Most rows of a joint that are held: all of 6D, a rod and a coupling.
+const MOST_HELD: usize = 6 + 15 + 2;
 
 /// Times that a cluster may change its mind about which limits press and which motors are at their strength.
 const ROUNDS: usize = 6;
@@ -260,6 +260,13 @@ impl<const N: usize> Joints<N> {
                     twist.set(i, j, twist.get(i, j) + impulse);
                     turned = true;
                 }
+                if let (Coordinate::Coupled, Some((Coupling::Screw { plane: (i, j), lead, .. }, _))) =
+                    (row.spec.coordinate, joint.coupling)
+                {
+                    let (i, j) = (usize::from(i), usize::from(j));
+                    twist += Bivector::plane(i, j, -lead / TAU * impulse);
+                    turned = true;
+                }
             }
             if turned {
                 let in_world = joint.axes * twist.to_matrix() * joint.axes.transpose();
@@ -282,11 +289,7 @@ impl<const N: usize> JointRows<N> {
         let rows = &mut rows[self.first..self.end];
         let ahead = self.geometry(&a.next, &b.next, rows);
         for row in rows {
-            let mut change = ahead.value(row.spec.coordinate) - row.value;
-            if matches!(row.spec.coordinate, Coordinate::Angle(..)) {
-                // The short way round where the angle jumps from π to −π.
-                change -= TAU * (change / TAU).round();
-            }
+            let change = ahead.shortest(row.spec.coordinate, ahead.value(row.spec.coordinate) - row.value);
             row.curve = change / h - row.rate(a, b, moving);
         }
     }
