@@ -201,6 +201,19 @@ fn joint(joint: &Joint) -> Json {
         JointKind::Axle { keeps } => add("keeps", Some(Json::Number(f64::from(*keeps)))),
         JointKind::Slider { along } => add("along", Some(text(along))),
         JointKind::Distance { length } | JointKind::Rope { length } => add("length", Some(Json::Number(*length))),
+        JointKind::Gear { plane, teeth } => {
+            add("plane", Some(text(plane)));
+            add("teeth", Some(numbers(&teeth.map(f64::from))));
+        }
+        JointKind::Rack { plane, radius } => {
+            add("plane", Some(text(plane)));
+            add("radius", Some(Json::Number(*radius)));
+        }
+        JointKind::Screw { plane, along, lead } => {
+            add("plane", Some(text(plane)));
+            add("along", Some(text(along)));
+            add("lead", Some(Json::Number(*lead)));
+        }
     }
     add("a", joint.a.as_deref().map(text));
     add("b", Some(text(&joint.b)));

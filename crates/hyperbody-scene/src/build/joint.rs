@@ -60,16 +60,27 @@ where
             JointDef::axle(a, b, frame_a, frame_b, keeps)
         }
         JointKind::Slider { along } => {
-            let mut letters = along.chars();
-            let axis = letters.next().filter(|_| letters.next().is_none()).and_then(|c| planes::axis_from_name(N, c));
-            let axis = axis.ok_or_else(|| {
-                let known: String = planes::AXIS_NAMES[..N].iter().collect();
-                SceneError::value(format!("{path}.along"), format!("unknown axis \"{along}\"; the axes are {known}"))
-            })?;
+            let axis = axis(N, along, &path)?;
             JointDef::slider(a, b, frame_a, frame_b, axis).axis(axis, freedom(joint, false))
         }
         JointKind::Distance { length } => JointDef::distance(a, b, from, to, *length),
         JointKind::Rope { length } => JointDef::rope(a, b, from, to, *length),
+        JointKind::Gear { plane: name, teeth: [first, second] } => {
+            let plane = plane::<N>(name, &format!("{path}.plane"))?;
+            JointDef::gear(a, b, frame_a, frame_b, plane, (*first, *second))
+        }
+        JointKind::Rack { plane: name, radius } => {
+            JointDef::rack(a, b, frame_a, frame_b, plane::<N>(name, &format!("{path}.plane"))?, *radius)
+        }
+        JointKind::Screw { plane: name, along, lead } => {
+            let (i, j) = plane::<N>(name, &format!("{path}.plane"))?;
+            let axis = axis(N, along, &path)?;
+            if axis == i || axis == j {
+                let message = format!("is {along}, an axis of the plane {name}; a screw goes along one across it");
+                return Err(SceneError::value(format!("{path}.along"), message));
+            }
+            JointDef::screw(a, b, frame_a, frame_b, (i, j), axis, *lead)
+        }
         JointKind::Motor { plane: name } => {
             let (i, j) = plane::<N>(name, &format!("{path}.plane"))?;
             let free = JointDef::free(a, b).frames(frame_a, frame_b);
@@ -81,6 +92,16 @@ where
     def.break_torque = joint.break_torque.unwrap_or(f64::INFINITY);
     def.collide |= joint.collide;
     Ok(def)
+}
+
+/// The axis of a name.
+fn axis(dimension: usize, name: &str, path: &str) -> Result<usize> {
+    let mut letters = name.chars();
+    let axis = letters.next().filter(|_| letters.next().is_none()).and_then(|c| planes::axis_from_name(dimension, c));
+    axis.ok_or_else(|| {
+        let known: String = planes::AXIS_NAMES[..dimension].iter().collect();
+        SceneError::value(format!("{path}.along"), format!("unknown axis \"{name}\"; the axes are {known}"))
+    })
 }
 
 /// The drives of what is free; `reversed` where the plane is named against the order of its axes.

@@ -68,6 +68,29 @@ pub enum JointKind {
         /// m, > 0.
         length: f64,
     },
+    /// Two wheels that mesh between their anchors.
+    Gear {
+        /// Two axes.
+        plane: String,
+        /// Teeth of the first and the second wheel; negative for one that runs inside the other.
+        teeth: [i32; 2],
+    },
+    /// A wheel on a rack, which is the second body.
+    Rack {
+        /// Two axes of the rack's frame: along it, and across it towards the wheel.
+        plane: String,
+        /// Of the wheel, m.
+        radius: f64,
+    },
+    /// Goes along an axis as it turns in a plane.
+    Screw {
+        /// Two axes.
+        plane: String,
+        /// An axis.
+        along: String,
+        /// How far it goes in a turn from the first axis of the plane to the second and on, m.
+        lead: f64,
+    },
     /// Keeps nothing: a motor alone, in one plane.
     Motor {
         /// Two axes.
@@ -173,6 +196,9 @@ impl Joint {
             JointKind::Slider { .. } => "slider",
             JointKind::Distance { .. } => "distance",
             JointKind::Rope { .. } => "rope",
+            JointKind::Gear { .. } => "gear",
+            JointKind::Rack { .. } => "rack",
+            JointKind::Screw { .. } => "screw",
             JointKind::Motor { .. } => "motor",
         }
     }

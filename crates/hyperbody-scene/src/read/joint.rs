@@ -6,7 +6,8 @@ use crate::error::SceneError;
 use crate::model::{Joint, JointKind, JointLimits, JointMotor, JointSpring};
 
 /// Kinds of joints.
-pub(super) const JOINTS: [&str; 8] = ["ball", "hinge", "axle", "weld", "slider", "distance", "rope", "motor"];
+pub(super) const JOINTS: [&str; 11] =
+    ["ball", "hinge", "axle", "weld", "slider", "distance", "rope", "gear", "rack", "screw", "motor"];
 
 /// Keys of every joint.
 pub(super) const COMMON_KEYS: [&str; 11] = [
@@ -34,6 +35,9 @@ pub(super) fn joint(at: &At<'_>) -> Result<Joint> {
         "axle" => &["keeps"],
         "slider" => &["along"],
         "distance" | "rope" => &["length"],
+        "gear" => &["plane", "teeth"],
+        "rack" => &["plane", "radius"],
+        "screw" => &["plane", "along", "lead"],
         key => return Err(unknown_key(&at.path, key, &JOINTS)),
     };
     let mut known = [own, &COMMON_KEYS].concat();
@@ -50,6 +54,17 @@ pub(super) fn joint(at: &At<'_>) -> Result<Joint> {
         "motor" => JointKind::Motor { plane: fields.required("plane")?.text()? },
         "axle" => JointKind::Axle { keeps: fields.required("keeps")?.count()? },
         "slider" => JointKind::Slider { along: fields.required("along")?.text()? },
+        "gear" => {
+            JointKind::Gear { plane: fields.required("plane")?.text()?, teeth: teeth(&fields.required("teeth")?)? }
+        }
+        "rack" => {
+            JointKind::Rack { plane: fields.required("plane")?.text()?, radius: fields.required("radius")?.number()? }
+        }
+        "screw" => JointKind::Screw {
+            plane: fields.required("plane")?.text()?,
+            along: fields.required("along")?.text()?,
+            lead: fields.required("lead")?.number()?,
+        },
         "distance" => JointKind::Distance { length: fields.required("length")?.number()? },
         _ => JointKind::Rope { length: fields.required("length")?.number()? },
     };
@@ -73,6 +88,20 @@ pub(super) fn joint(at: &At<'_>) -> Result<Joint> {
     };
     joint.spring = fields.or("spring", None, |at| spring(at).map(Some))?;
     Ok(joint)
+}
+
+fn teeth(at: &At<'_>) -> Result<[i32; 2]> {
+    let numbers = at.numbers()?;
+    let whole = |value: f64| {
+        let in_range = value.fract() == 0.0 && value.abs() <= f64::from(i32::MAX);
+        #[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
+        in_range.then_some(value as i32)
+    };
+    match numbers[..] {
+        [a, b] => whole(a).zip(whole(b)).map(|(a, b)| [a, b]),
+        _ => None,
+    }
+    .ok_or_else(|| SceneError::value(&at.path, "has to be two whole numbers such as [12, 30]"))
 }
 
 fn softness(fields: &Fields<'_>) -> Result<Option<[f64; 2]>> {

@@ -96,6 +96,14 @@ fn everything() -> Scene {
     for kind in [JointKind::Weld, JointKind::Axle { keeps: 2 }, JointKind::Rope { length: 1.5 }] {
         scene.joints.push(Joint::new(kind, "a", "b"));
     }
+    let wx = || "wx".to_owned();
+    for kind in [
+        JointKind::Gear { plane: wx(), teeth: [-12, 30] },
+        JointKind::Rack { plane: wx(), radius: -0.25 },
+        JointKind::Screw { plane: wx(), along: "y".to_owned(), lead: 0.1 },
+    ] {
+        scene.joints.push(Joint::new(kind, "a", "b").anchored([0.0, 1.0, 0.0, 0.0], []));
+    }
     scene.joints.push(Joint::new(JointKind::Motor { plane: "xy".to_owned() }, "a", "b").driven(3.0, 1.0));
     scene
 }
