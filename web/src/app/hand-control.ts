@@ -21,7 +21,7 @@ interface Hand {
 }
 
 /** Which hand is whose: one number for each thing that can hold. */
-export const HAND = { pointer: 0, keyboard: 1, left: 10, right: 11 } as const;
+export const HAND = { pointer: 0, keyboard: 1, panel: 2, left: 10, right: 11 } as const;
 
 export class HandControl {
   private readonly hands = new Map<number, Hand>();

@@ -2,7 +2,6 @@
 import { enScenes, type SceneWords } from "./en-scenes";
 
 export const en = {
-  language: "English",
   tagline: "Hold the fourth dimension",
   hintMouse: "Drag a body to pull it. Wheel while dragging pushes it along w. Q and E move the slice.",
   hintTouch: "Pull a body with one finger; a second finger pushes it along w. Drag the strip to move the slice.",
@@ -30,7 +29,6 @@ export const en = {
   scrub: "Back through the last seconds",
   now: "now",
   secondsBack: (s: string) => `${s} s back`,
-  resumeHint: "Run to go on from here",
   tooSlow: (share: string) => `This machine is too slow for the scene: time runs at ${share} %`,
 
   slice: "Slice",
@@ -67,7 +65,6 @@ export const en = {
   energy: "Energy",
   kinetic: "kinetic",
   potential: "potential",
-  mass: "Mass",
   asleep: "asleep",
   frozen: "frozen",
   freeze: "Freeze",
@@ -77,9 +74,11 @@ export const en = {
   restsOn: (cell: number) => `Lies on cell ${cell}`,
   plots: "The last 8 seconds",
   turnBody: "Turn",
+  turnBodyIn: (plane: string) => `Turn the body in ${plane}`,
 
   gravity: "Gravity",
   gravityOn: "On",
+  gravityView: "Down in the picture",
   gravityTilt: "By tilting this device",
   gravityNoTilt: "This device reports no tilt.",
   strength: "Strength",
@@ -121,7 +120,6 @@ export const en = {
   sound: "Sound of impacts",
   vibration: "Vibration",
   changeLanguage: "中文",
-  info: "Measured",
   physicsMs: "physics",
   slicingMs: "slicing",
   steps: "steps",

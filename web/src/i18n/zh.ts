@@ -4,7 +4,6 @@ import { zhProblem } from "./zh-problems";
 import { zhScenes } from "./zh-scenes";
 
 export const zh: Words = {
-  language: "中文",
   tagline: "把第四维握在手里",
   hintMouse: "拖动物体来拉它；拖动时滚轮把它沿 w 推；Q 和 E 移动切片。",
   hintTouch: "单指拉物体，第二指把它沿 w 推；拖动下方的带子移动切片。",
@@ -32,7 +31,6 @@ export const zh: Words = {
   scrub: "回看最近几秒",
   now: "此刻",
   secondsBack: (s) => `${s} 秒前`,
-  resumeHint: "点“运行”从这里继续",
   tooSlow: (share) => `这台设备跑不动这个场景：时间以 ${share}% 的速度流逝`,
 
   slice: "切片",
@@ -69,7 +67,6 @@ export const zh: Words = {
   energy: "能量",
   kinetic: "动能",
   potential: "势能",
-  mass: "质量",
   asleep: "休眠",
   frozen: "已固定",
   freeze: "固定",
@@ -79,9 +76,11 @@ export const zh: Words = {
   restsOn: (cell) => `落在第 ${cell} 个胞上`,
   plots: "最近 8 秒",
   turnBody: "转动",
+  turnBodyIn: (plane) => `在 ${plane} 平面内转动物体`,
 
   gravity: "重力",
   gravityOn: "开启",
+  gravityView: "画面的下方",
   gravityTilt: "随设备倾斜",
   gravityNoTilt: "此设备没有倾斜传感器的读数。",
   strength: "强度",
@@ -122,7 +121,6 @@ export const zh: Words = {
   sound: "碰撞声",
   vibration: "振动",
   changeLanguage: "English",
-  info: "测量",
   physicsMs: "物理",
   slicingMs: "切片",
   steps: "步",

@@ -1,9 +1,12 @@
 // Everything about the selected body, live: where it is, how it moves and turns, what it holds, and the last seconds of it.
+import { useEffect, useRef } from "preact/hooks";
+import { HAND } from "../app/hand-control";
 import { t } from "../i18n";
 import { BODY_COLOURS } from "../view/palette";
 import { AXES, AXIS_COLOURS, inOrder, short, signed } from "./axes";
 import { LiveCanvas, type Draw } from "./canvas";
 import { usePlayground } from "./context";
+import { Dial } from "./dial";
 import { Icon, IconButton } from "./icons";
 import { bodyOpen } from "./state";
 import type { Plots, Sample } from "../app/plots";
@@ -34,6 +37,7 @@ export function BodyPanel() {
       </div>
       {bodyOpen.value && (
         <div class="numbers">
+          {selected.kind === "dynamic" && !selected.frozen && <TurnKnobs key={id} body={id} />}
           <Coordinates name={t().position} unit="m" values={selected.position} testid="position" />
           <Coordinates name={t().velocity} unit="m/s" values={selected.velocity} testid="velocity" />
           <Bars name={t().spin} unit="rad/s" planes={selected.angularVelocity} />
@@ -49,6 +53,40 @@ export function BodyPanel() {
         </div>
       )}
     </section>
+  );
+}
+
+/** Turns the body in every plane of the slice's frame, those that lead off the slice too: by a hand of the panel's own. */
+function TurnKnobs({ body }: { body: number }) {
+  const playground = usePlayground();
+  const { hands } = playground;
+  const turned = useRef<Record<string, number>>({});
+  const release = () => hands.release(HAND.panel);
+  useEffect(() => release, []);
+  const n = playground.slice.frame.rows.length;
+  const planes = Array.from({ length: n }, (_, i) => Array.from({ length: n - 1 - i }, (_, k) => [i, i + 1 + k] as const)).flat();
+  const direction = (row: number) => Array.from({ length: n }, (_, axis) => (axis === row ? 1 : 0));
+  const turn = (name: string, i: number, j: number, by: number) => {
+    const centre = playground.centre(body);
+    if (hands.holds(HAND.panel) === null && centre) hands.grab(HAND.panel, body, centre, true);
+    hands.turn(HAND.panel, direction(i), direction(j), by);
+    turned.current[name] = (turned.current[name] ?? 0) + by;
+  };
+  return (
+    <>
+      <h3>{t().turnBody}</h3>
+      <div class="knobs turn-knobs">
+        {planes.map(([i, j]) => {
+          const name = AXES[i] + AXES[j];
+          return (
+            <Dial
+              key={name} label={t().turnBodyIn(name)} name={name} angle={turned.current[name] ?? 0} colour={AXIS_COLOURS[j]}
+              onTurn={(by) => turn(name, i, j, by)} onEnd={release}
+            />
+          );
+        })}
+      </div>
+    </>
   );
 }
 

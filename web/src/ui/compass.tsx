@@ -1,19 +1,17 @@
 // The compass: the world's axes as the slice shows them, in the camera's view, and a knob for each way of turning the
 // slice off. An axis that leaves the slice shortens to a ring; what takes its place grows.
-import { useRef } from "preact/hooks";
 import { Vector3 } from "three";
 import type { Playground } from "../app/playground";
 import { t } from "../i18n";
 import { AXES, AXIS_COLOURS } from "./axes";
 import { LiveCanvas } from "./canvas";
 import { usePlayground } from "./context";
+import { Dial } from "./dial";
 import { IconButton } from "./icons";
 
 const REACH = 0.7;
 /** An axis with less than this in the slice is drawn as a ring. */
 const GONE = 0.06;
-const RADIANS_PER_PIXEL = 0.011;
-const KEY_TURN = Math.PI / 36;
 
 export function Compass() {
   const playground = usePlayground();
@@ -77,44 +75,16 @@ function paint(context: CanvasRenderingContext2D, width: number, height: number,
   }
 }
 
-/** A knob that turns the slice from one of the view's axes into an off direction: drag, arrow keys, double click for 90°. */
+/** Turns the slice from one of the view's axes into an off direction; a double click, or Enter, by 90°. */
 function Knob({ view, off }: { view: number; off: number }) {
-  const playground = usePlayground();
-  const last = useRef<number | null>(null);
-  const { rows, shown } = playground.slice.frame;
-  const plane = `${AXES[view]}${AXES[shown + off]}`;
+  const { slice } = usePlayground();
+  const { rows, shown } = slice.frame;
+  const name = `${AXES[view]}${AXES[shown + off]}`;
   const angle = Math.atan2(rows[view][shown + off], rows[view][view]);
-  const move = (event: PointerEvent) => {
-    if (last.current === null) return;
-    const at = event.clientX - event.clientY;
-    playground.slice.turnBy(view, off, (at - last.current) * RADIANS_PER_PIXEL);
-    last.current = at;
-  };
-  const key = (event: KeyboardEvent) => {
-    const sign = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 }[event.key];
-    if (event.key === "Enter") playground.slice.quarter(view, off, 1);
-    if (sign) playground.slice.turnBy(view, off, sign * KEY_TURN);
-    if (sign || event.key === "Enter") {
-      event.preventDefault();
-      event.stopPropagation();
-    }
-  };
   return (
-    <button
-      type="button" class="knob" role="slider" aria-label={t().turnPlane(plane)} aria-valuenow={Math.round((angle * 180) / Math.PI)} title={t().turnPlane(plane)}
-      onPointerDown={(event) => {
-        (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
-        last.current = event.clientX - event.clientY;
-      }}
-      onPointerMove={move} onPointerUp={() => (last.current = null)} onPointerCancel={() => (last.current = null)}
-      onDblClick={() => playground.slice.quarter(view, off, 1)} onKeyDown={key}
-    >
-      <svg viewBox="-20 -20 40 40" aria-hidden="true">
-        <circle r="15" class="knob-rim" />
-        {[0, 90, 180, 270].map((tick) => <path key={tick} d="M0-18.500v3" transform={`rotate(${tick})`} class="knob-tick" />)}
-        <path d="M0 0V-12" transform={`rotate(${(angle * 180) / Math.PI})`} class="knob-hand" style={{ stroke: AXIS_COLOURS[shown + off] }} />
-      </svg>
-      <span>{plane}</span>
-    </button>
+    <Dial
+      label={t().turnPlane(name)} name={name} angle={angle} colour={AXIS_COLOURS[shown + off]}
+      onTurn={(by) => slice.turnBy(view, off, by)} onQuarter={() => slice.quarter(view, off, 1)}
+    />
   );
 }

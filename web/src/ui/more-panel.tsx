@@ -75,6 +75,7 @@ function Gravity() {
   const set = (axis: number, sign: number, size: number) => playground.setGravity(vector.map((_, i) => (i === axis ? sign * size : 0)));
   const axis = vector.reduce((best, value, i) => (Math.abs(value) > Math.abs(vector[best]) ? i : best), 0);
   const sign = strength > 0 ? Math.sign(vector[axis]) : -1;
+  const isAlongAxis = strength > 0 && Math.abs(vector[axis]) > 0.999 * strength;
   return (
     <section class="choices gravity">
       <h3>{t().gravity}</h3>
@@ -85,10 +86,13 @@ function Gravity() {
       <div class="directions" role="radiogroup" aria-label={t().direction}>
         {vector.flatMap((_, i) => [-1, 1].map((s) => (
           <button
-            key={`${i}${s}`} type="button" role="radio" aria-checked={strength > 0 && i === axis && s === sign} style={{ color: AXIS_COLOURS[i] }}
+            key={`${i}${s}`} type="button" role="radio" aria-checked={isAlongAxis && i === axis && s === sign} style={{ color: AXIS_COLOURS[i] }}
             onClick={() => set(i, s, strength || STANDARD_GRAVITY)}
           >{s < 0 ? "−" : "+"}{AXES[i]}</button>
         )))}
+      </div>
+      <div class="row">
+        <button type="button" class="button" data-testid="gravity-view" onClick={() => playground.setGravityInView([0, -1, 0], strength || STANDARD_GRAVITY)}>{t().gravityView}</button>
       </div>
       <label class="slider">
         <span>{t().strength}</span>

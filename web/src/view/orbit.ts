@@ -5,9 +5,9 @@ import { placeToSee } from "./framing";
 
 /** How fast the camera follows, 1/s: fast enough to feel held, slow enough to be smooth. */
 const FOLLOW_RATE = 16;
-/** How fast a thrown orbit comes to rest, 1/s. */
 /** And where nobody sent it, 1/s. */
 const GLIDE_RATE = 1.8;
+/** How fast a thrown orbit comes to rest, 1/s. */
 const INERTIA_DECAY = 4.5;
 const PITCH_LIMIT = 1.45;
 const LEAST_PITCH = -0.35;
