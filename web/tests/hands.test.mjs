@@ -82,6 +82,34 @@ test("a second finger pushes what the first one holds along w", async () => {
   await context.close();
 });
 
+test("a knob of the panel turns the selected body into w, by pointer and by key, and lets go", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await settle(page);
+  const body = await idOf(page, "tesseract");
+  await page.keyboard.press("n");
+  while ((await page.evaluate(() => window.hyperbody.selected)) !== body) await page.keyboard.press("n");
+  const turned = (least) => until(page, (sine) => Math.abs(window.hyperbody.frame.selected.rotation[0][3]) > sine, least);
+  const knob = page.getByRole("slider", { name: "Turn the body in xw" });
+  const box = await knob.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 10; k++) await page.mouse.move(x + 5 * k, y);
+  await turned(0.35);
+  assert.equal(await page.evaluate(() => window.hyperbody.frame.hands.length), 1);
+  await page.mouse.up();
+  await until(page, () => window.hyperbody.frame.hands.length === 0);
+  await knob.focus();
+  await page.keyboard.down("ArrowUp");
+  for (let k = 0; k < 5; k++) await page.keyboard.down("ArrowUp");
+  await turned(0.7);
+  await page.keyboard.up("ArrowUp");
+  await until(page, () => window.hyperbody.frame.hands.length === 0);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("keys move and turn the slice, and bring it home", async () => {
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });

@@ -108,6 +108,21 @@ test("gravity off: what is thrown up does not come down; added bodies can be und
   await context.close();
 });
 
+test("down can be any direction: here that of the picture, through a slice that is turned", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await page.keyboard.press("Shift+T");
+  await until(page, () => Math.abs(window.hyperbody.slice.rows[1][3]) === 1);
+  await page.getByRole("button", { name: "More" }).click();
+  await page.getByTestId("gravity-view").click();
+  await page.keyboard.press("Escape");
+  // The picture's upright axis is w now: what is selected falls along it.
+  await page.keyboard.press("n");
+  await until(page, () => window.hyperbody.frame.selected && Math.abs(window.hyperbody.frame.selected.velocity[3]) > 2);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("started again, the scene keeps its slice, its gravity and what is selected", async () => {
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });

@@ -10,7 +10,7 @@ use hyperbody_math::Vector;
 
 use crate::World;
 use crate::narrow_phase::moved;
-use crate::pairs::{Pair, PairRole, Surface};
+use crate::pairs::{Pair, PairRole, Surface, in_order};
 use crate::world::Collider;
 
 impl<const N: usize> World<N> {
@@ -114,7 +114,7 @@ impl<const N: usize> World<N> {
                 }
             }
         }
-        found.sort_unstable_by_key(|&(a, b)| u64::from(a) << 32 | u64::from(b));
+        found.sort_unstable_by_key(in_order);
         found.dedup();
         for &(a, b) in &found {
             if !self.pairs.contains(a, b)

@@ -18,7 +18,9 @@ impl Counting {
     /// Puts `order` into ascending order of its elements' keys, which are below `keys`; equal ones stay as they stand.
     pub(crate) fn sort(&mut self, order: &mut Vec<u32>, keys: usize, key: impl Fn(u32) -> usize) {
         if keys / MANY_KEYS > order.len() {
-            order.sort_by_key(|&element| key(element));
+            // Few: by one function for all callers, whatever their keys.
+            let key: &mut dyn FnMut(&u32) -> usize = &mut |&element| key(element);
+            order.sort_by_key(key);
             return;
         }
         self.starts.clear();

@@ -53,6 +53,7 @@ pub mod snapshot;
 mod solver;
 mod steering;
 mod step;
+mod threads;
 pub mod timings;
 pub mod tuning;
 mod vetting;

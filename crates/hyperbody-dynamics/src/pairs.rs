@@ -11,6 +11,12 @@ use hyperbody_math::{Bivector, Pose, Vector};
 use crate::Material;
 use crate::body::Body;
 
+/// What pairs of numbers are sorted by: the first, then the second. One function for worlds of all dimensions, so that sorting
+/// by it is compiled once.
+pub(crate) fn in_order(&(a, b): &(u32, u32)) -> u64 {
+    u64::from(a) << 32 | u64::from(b)
+}
+
 /// What comes of a pair that meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PairRole {

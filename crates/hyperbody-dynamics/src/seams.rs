@@ -26,7 +26,7 @@ use hyperbody_math::{Bivector, Vector};
 
 use crate::body::Body;
 use crate::narrow_phase::velocity_near;
-use crate::pairs::Pair;
+use crate::pairs::{Pair, in_order};
 use crate::world::Collider;
 use crate::{BodyKind, World};
 
@@ -112,7 +112,7 @@ impl<const N: usize> World<N> {
                 }
             }
         }
-        seams.contacts.sort_unstable_by_key(|&(body, slot)| u64::from(body) << 32 | u64::from(slot));
+        seams.contacts.sort_unstable_by_key(in_order);
     }
 
     fn find_ghosts(&self, seams: &mut Seams<N>) {

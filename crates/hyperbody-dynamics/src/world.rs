@@ -16,6 +16,7 @@ use crate::pairs::Pairs;
 use crate::rules::Hook;
 use crate::seams::Seams;
 use crate::solver::Solver;
+use crate::threads::Pool;
 use crate::vetting::POSITION_LIMIT;
 use crate::{
     BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, JointHandle, StageTimings, Tuning, WorldError, WorldErrorKind,
@@ -129,7 +130,7 @@ pub struct World<const N: usize> {
     pub(crate) clock: Option<fn() -> f64>,
     pub(crate) hook: Option<Hook<N>>,
 
-    pub(crate) pool: Option<rayon::ThreadPool>,
+    pub(crate) pool: Option<Pool>,
     pub(crate) solver: Solver<N>,
     pub(crate) scratch: Vec<Scratch<N>>,
     pub(crate) tree_stack: Vec<u32>,
@@ -169,8 +170,7 @@ impl<const N: usize> World<N> {
         }
         def.tuning.validate()?;
         let pool = if def.threads > 1 {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(def.threads).build();
-            Some(pool.map_err(|error| {
+            Some(Pool::new(def.threads).map_err(|error| {
                 WorldError::new(WorldErrorKind::NotAllowed, format!("{} threads: {error}", def.threads))
             })?)
         } else {

@@ -97,7 +97,7 @@ fn first_of_equals<const N: usize>(points: &[Vector<N>]) -> Vec<u32> {
     // Adding zero makes −0 and 0 one number.
     let key = |index: u32| points[index as usize].0.map(|c| (c + 0.0).to_bits());
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_by_key(|&index| (key(index), index));
+    order.sort_unstable_by_key(|&index| (key(index), index));
     order.dedup_by_key(|index| key(*index));
     order.sort_unstable();
     order

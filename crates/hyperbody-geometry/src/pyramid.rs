@@ -90,7 +90,7 @@ impl<const N: usize> SupportMap<N> for Pyramid<N> {
         let mut breaks = vec![0.0, 1.0];
         breaks.extend(term.range.iter().map(|end| from_apex / (term.weight * end - rise * h)));
         breaks.retain(|s| (0.0..=1.0).contains(s));
-        breaks.sort_by(f64::total_cmp);
+        breaks.sort_unstable_by(f64::total_cmp);
         let met = |pair: &&[f64]| {
             let middle = at(0.5 * (pair[0] + pair[1]));
             pair[1] > pair[0] && middle > term.range[0] && middle < term.range[1]

@@ -4,6 +4,7 @@
 //! most six rows nothing converges faster or keeps the eigenvectors orthogonal better, and it uses only the
 //! operations that IEEE 754 fixes to the bit.
 
+use crate::order::descending;
 use crate::{Matrix, Rotation, Vector};
 
 /// Sweeps over all off-diagonal entries. Convergence is quadratic: the random, graded and degenerate matrices of the
@@ -81,8 +82,7 @@ fn annihilate<const N: usize>(a: &mut Matrix<N>, vectors: &mut Matrix<N>, p: usi
 
 /// Values in descending order with their vectors, signs fixed as [`symmetric_eigen`] promises.
 fn sorted<const N: usize>(values: Vector<N>, vectors: &Matrix<N>) -> (Vector<N>, Rotation<N>) {
-    let mut order: [usize; N] = std::array::from_fn(|i| i);
-    order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
+    let order: [usize; N] = descending(|i| values[i]);
     let columns = order.map(|i| {
         let column = vectors.column(i);
         if column[column.axis_of_max_abs()] < 0.0 { -column } else { column }

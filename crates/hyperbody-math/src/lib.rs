@@ -22,6 +22,7 @@ pub mod eigen;
 pub mod givens;
 pub mod invariant;
 pub mod matrix;
+mod order;
 pub mod planes;
 mod polar;
 pub mod pose;

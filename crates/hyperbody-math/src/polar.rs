@@ -5,6 +5,7 @@
 //! iteration (M. R. Hestenes, 1958): it needs no start, works at any distance and on singular matrices. The Newton step
 //! of [`Rotation::reorthonormalize`] is far cheaper, but converges only from nearby.
 
+use crate::order::descending;
 use crate::{Matrix, Rotation, Vector};
 
 /// Sweeps over all pairs of columns; like the two-sided iteration, it takes fewer than ten.
@@ -37,8 +38,7 @@ pub(crate) fn nearest_rotation<const N: usize>(m: &Matrix<N>) -> Option<Rotation
             break;
         }
     }
-    let mut order: [usize; N] = std::array::from_fn(|i| i);
-    order.sort_by(|&i, &j| a.row(j).norm_sq().total_cmp(&a.row(i).norm_sq()));
+    let order: [usize; N] = descending(|i| a.row(i).norm_sq());
     let stretched = order.map(|i| a.row(i));
     let v = Matrix(order.map(|i| v.0[i]));
 

@@ -107,8 +107,10 @@ impl<const N: usize> DynamicTree<N> {
         };
         let Some(cut) = self.best_cut(leaves, bin_of) else { return halfway };
         // A stable partition, so that the order depends on the operations alone.
-        leaves.sort_by_key(|&leaf| bin_of(leaf) >= cut);
-        leaves.partition_point(|&leaf| bin_of(leaf) < cut)
+        let (before, after): (Vec<u32>, Vec<u32>) = leaves.iter().partition(|&&leaf| bin_of(leaf) < cut);
+        leaves[..before.len()].copy_from_slice(&before);
+        leaves[before.len()..].copy_from_slice(&after);
+        before.len()
     }
 
     /// The bin before which to cut so that the two halves, each weighed by its leaves, are smallest.

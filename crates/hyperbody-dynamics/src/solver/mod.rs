@@ -36,6 +36,7 @@ use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::Joint;
 use crate::pairs::{Contact, Pair, Pairs, Surface};
+use crate::threads::Pool;
 use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
@@ -86,7 +87,7 @@ pub(crate) struct SolverInput<'a, const N: usize> {
     pub(crate) tuning: &'a Tuning,
     pub(crate) dt: f64,
     pub(crate) substeps: u32,
-    pub(crate) pool: Option<&'a rayon::ThreadPool>,
+    pub(crate) pool: Option<&'a Pool>,
 }
 
 impl<const N: usize> Solver<N> {
@@ -281,7 +282,7 @@ impl<const N: usize> Solver<N> {
         }
     }
 
-    fn solve_contacts(&mut self, times: &PassTimes, pool: Option<&rayon::ThreadPool>) {
+    fn solve_contacts(&mut self, times: &PassTimes, pool: Option<&Pool>) {
         let sweep = Sweep { processor: self.processor, times };
         let (contacts, ends) = (&mut self.contacts, self.colours.ends.as_slice());
         self.pressed.watch::<N>(&mut self.state, |state| sweep.run::<N>(contacts, ends, state, pool));

@@ -192,19 +192,18 @@ fn check_distances<const N: usize>(
 
 fn in_canonical_order<const N: usize>(groups: Vec<Group<N>>) -> Vec<Facet<N>> {
     let mut order: Vec<usize> = (0..groups.len()).collect();
-    order.sort_by(|&a, &b| groups[a].vertices.cmp(&groups[b].vertices));
+    order.sort_unstable_by(|&a, &b| groups[a].vertices.cmp(&groups[b].vertices).then(a.cmp(&b)));
     let mut number = vec![0; groups.len()];
     for (new, &old) in order.iter().enumerate() {
         number[old] = new as u32;
     }
-    let mut facets: Vec<Facet<N>> = groups
-        .into_iter()
-        .map(|group| {
+    let mut groups: Vec<Option<Group<N>>> = groups.into_iter().map(Some).collect();
+    let facets = order.iter().filter_map(|&old| {
+        groups[old].take().map(|group| {
             let mut neighbours: Vec<u32> = group.neighbours.iter().map(|&n| number[n as usize]).collect();
             neighbours.sort_unstable();
             Facet { normal: group.plane.normal, offset: group.plane.offset, vertices: group.vertices, neighbours }
         })
-        .collect();
-    facets.sort_by(|a, b| a.vertices.cmp(&b.vertices));
-    facets
+    });
+    facets.collect()
 }

@@ -47,7 +47,7 @@ const MAX_KNOTS: usize = 7;
 /// The B-spline of integral one with the given knots, at zero. All terms of the recurrence are positive there (C. de Boor, M. G.
 /// Cox, 1972), so that nothing cancels.
 fn spline_at_zero(knots: &mut [f64]) -> f64 {
-    knots.sort_by(f64::total_cmp);
+    knots.sort_unstable_by(f64::total_cmp);
     let degree = knots.len() - 1;
     let mut values = [0.0; MAX_KNOTS];
     for (value, pair) in values.iter_mut().zip(knots.windows(2)) {

@@ -10,6 +10,7 @@ use super::solve::Solve;
 use super::{Block, ContactRows, PassTimes};
 use crate::solver::lanes::{Lanes, Real};
 use crate::solver::machine::Processor;
+use crate::threads::Pool;
 
 /// Blocks that one thread takes at a time: two to ten microseconds a block against some ten for waking a thread.
 const SHARE: usize = 24;
@@ -31,7 +32,7 @@ impl Sweep<'_> {
         contacts: &mut ContactRows,
         ends: &[usize],
         state: &mut [Real],
-        pool: Option<&rayon::ThreadPool>,
+        pool: Option<&Pool>,
     ) {
         match pool.filter(|_| contacts.blocks.len() >= MANY) {
             Some(pool) => pool.install(|| self.by_colours::<N>(contacts, ends, state)),
