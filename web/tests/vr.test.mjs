@@ -149,6 +149,36 @@ test("two controllers hold two bodies, and each moves its own", async () => {
   await context.close();
 });
 
+test("the panel is on the left wrist, for the right hand to press; with one hand alone it hangs beside the viewer", async () => {
+  const context = await withHeadset();
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await enter(page);
+  const { position, scale } = await page.evaluate(() => window.hyperbody.viewer);
+  const inRoom = (point) => point.map((value, axis) => position[axis] + scale * value);
+  const press = async (from, at) => {
+    await aim(page, inRoom(from), inRoom(at));
+    await page.waitForTimeout(300);
+    await pressTrigger(page, "right", 1);
+    await page.waitForTimeout(300);
+    await pressTrigger(page, "right", 0);
+  };
+  // The button at the panel's upper left stops time. The left hand points straight ahead.
+  await aim(page, inRoom([-0.2, 1.2, -0.4]), inRoom([-0.2, 1.2, -1.4]), "left");
+  const turned = (x, y, pitch) => [x, y * Math.cos(pitch), y * Math.sin(pitch)];
+  const onWrist = turned(-0.1, 0.064, -0.7).map((value, axis) => value + [-0.2, 1.3, -0.34][axis]);
+  await press([0.2, 1.4, 0], onWrist);
+  await until(page, () => window.hyperbody.frame.paused);
+  // Without a left hand, in the room: a turn about y after the one about x.
+  await page.evaluate(() => (window.headset.controllers.left.connected = false));
+  await page.waitForTimeout(500);
+  const [x, y, z] = turned(-0.1, 0.064, -0.2);
+  const [c, s] = [Math.cos(0.6), Math.sin(0.6)];
+  await press([0.2, 1.4, 0], [-0.42 + c * x + s * z, 1.25 + y, -0.6 - s * x + c * z]);
+  await until(page, () => !window.hyperbody.frame.paused);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("a pressed stick teleports", async () => {
   const context = await withHeadset();
   const { page } = await open(context, server.address, { scene: "hello4d" });

@@ -5,12 +5,13 @@ import { fullestSlice, sight } from "../view/framing";
 import type { Stage } from "../view/stage";
 import type { SliceFrame } from "./slice-frame";
 
-/** Slices nearer to each other than this are the same, m. */
+/** Slices nearer to each other than this are the same, m and rad. */
 const SAME_SLICE = 1e-6;
 /** The camera goes with a new scene for so long, s; what the picture has to hold grows at once and shrinks at this rate, 1/s. */
 const SETTLING_SECONDS = 6;
 const SHRINK_RATE = 1;
-/** What goes farther off than this share of the scene's size is let go. */
+/** What makes the picture larger than so many times what it was at first, is let go where it is farther off than this share of it. */
+const MOST_GROWTH = 2.4;
 const LET_GO = 0.7;
 
 /** Where the slice stands, and how it is moved at once. */
@@ -24,6 +25,8 @@ export class FirstLook {
   private opening: "slice" | "camera" | null = null;
   /** Seconds for which the camera still goes with the scene. */
   private left = 0;
+  /** Of what was seen at first, m. */
+  private size = 0;
   private readonly seen = new Box3();
   private readonly limit = new Box3();
 
@@ -52,20 +55,23 @@ export class FirstLook {
   /** Whether a frame may be drawn. By the first frames of a scene it chooses where to cut, then, by the cut, from where to look. */
   take(frame: Frame, bodies: readonly BodyDescription[]): boolean {
     if (!this.opening) return true;
+    // Frames of the slice that was left are still under way.
+    if (!isCutBy(this.slicing.drawn(), frame)) return false;
     if (this.opening === "slice") {
       this.opening = "camera";
       const away = fullestSlice(frame, bodies);
-      if (away.some((off) => off !== 0)) this.slicing.jump(away);
+      if (away.some((off) => off !== 0)) {
+        this.slicing.jump(away);
+        return false;
+      }
     }
-    // Frames of the slice that was left are still under way.
-    const { origin } = this.slicing.drawn();
-    if (origin.some((value, axis) => Math.abs(value - frame.slice.origin[axis]) > SAME_SLICE)) return false;
     this.opening = null;
     const box = sight(frame, bodies, true);
     if (!box) return true;
     this.stage.setSight(box);
     this.seen.copy(box);
-    this.limit.copy(box).expandByScalar(LET_GO * box.getSize(new Vector3()).length());
+    this.size = box.getSize(new Vector3()).length();
+    this.limit.copy(box).expandByScalar(LET_GO * this.size);
     this.left = SETTLING_SECONDS;
     return true;
   }
@@ -74,11 +80,20 @@ export class FirstLook {
   settle(seconds: number, frame: Frame, bodies: readonly BodyDescription[]): void {
     if (this.left <= 0) return;
     this.left -= seconds;
-    const now = sight(frame, bodies)?.intersect(this.limit);
-    if (!now || now.isEmpty()) return;
+    const now = sight(frame, bodies);
+    if (!now) return;
+    // What rolls away together is followed; of what flies apart, what stays.
+    if (now.getSize(new Vector3()).length() > MOST_GROWTH * this.size) now.intersect(this.limit);
+    if (now.isEmpty()) return;
     const share = 1 - Math.exp(-SHRINK_RATE * seconds);
     this.seen.min.lerp(now.min, share).min(now.min);
     this.seen.max.lerp(now.max, share).max(now.max);
     this.stage.see(this.seen, true);
   }
+}
+
+/** Whether a frame is a cut by this slice. */
+function isCutBy({ origin, rows }: SliceFrame, { slice }: Frame): boolean {
+  const isSame = (a: readonly number[], b: readonly number[]) => a.every((value, axis) => Math.abs(value - b[axis]) < SAME_SLICE);
+  return isSame(origin, slice.origin) && slice.axes.every((axis, row) => isSame(axis, rows[row]));
 }

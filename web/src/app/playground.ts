@@ -9,6 +9,7 @@ import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
 import { HAND, HandControl } from "./hand-control";
 import { t, wordsOf } from "../i18n";
+import { firstTurn } from "../scenes/gallery";
 import { textOfOwn } from "../scenes/own";
 import { FirstLook } from "./first-look";
 import { Plots } from "./plots";
@@ -480,7 +481,7 @@ export class Playground {
     const dimension = this.scene.value?.dimension ?? 4;
     const allowed = on && dimension === 3;
     this.flatland.value = allowed;
-    this.slice.reset(dimension, allowed ? 2 : Math.min(3, dimension));
+    this.slice.reset(dimension, allowed ? 2 : Math.min(3, dimension), allowed ? null : firstTurn(this.sceneName.value));
     this.flat.setVisible(allowed);
     this.sendSlice();
   }

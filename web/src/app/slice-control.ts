@@ -45,8 +45,10 @@ export class SliceControl {
     return dot(this.frame.origin, this.frame.rows[this.frame.shown + j]);
   }
 
-  reset(dimension: number, shown: number): void {
-    this.frame = homeFrame(dimension, shown);
+  /** A new scene's slice: home, or with one axis of the view turned into the first off direction. */
+  reset(dimension: number, shown: number, turnedAxis: number | null = null): void {
+    const home = homeFrame(dimension, shown);
+    this.frame = turnedAxis === null ? home : nearestQuarter(turned(home, turnedAxis, shown, Math.PI / 2, home.origin));
     this.glide.length = this.glideGoal.length = 0;
     this.spin.clear();
     this.spinGoal.clear();

@@ -7,6 +7,14 @@ const ORDER = ["first", "stacks", "dice", "piles", "games", "links", "friction",
 /** Scenes of the engine that stand elsewhere than where their sort puts them. */
 const MOVED: Record<string, string> = { dice4d: "dice", dice_pit4d: "dice", rounded4d: "dice", embedded4d: "first" };
 
+/** Scenes whose bodies stand side by side along an off direction: the view's axis that begins as that direction. */
+const BEGINS_TURNED: Record<string, number> = { ramp4d: 2 };
+
+/** Which axis of the view, 0 to 2, a scene's first slice has turned into the first off direction; null for the usual slice. */
+export function firstTurn(name: string | null): number | null {
+  return name === null ? null : (BEGINS_TURNED[name] ?? null);
+}
+
 /** From this dimension on scenes have a group of their own, as have those of two. */
 const HIGHER = 5;
 

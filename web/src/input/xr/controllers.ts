@@ -70,25 +70,36 @@ export class Controllers {
       this.follow(controller);
       this.sticks(controller, seconds);
     }
-    const pointing = this.controllers.filter(({ source }) => source?.handedness !== "left").map(({ space }) => rayOf(space));
-    this.panel.update(pointing);
+    const wrist = this.wrist();
+    this.panel.update(this.controllers.filter((controller) => controller.source && controller !== wrist).map(({ space }) => rayOf(space)));
   }
 
   private connect(controller: Controller, source: XRInputSource): void {
     controller.source = source;
     controller.hand = source.handedness === "right" ? HAND.right : HAND.left;
-    if (source.handedness === "left") controller.space.add(this.panel.mesh);
+    this.hangPanel();
+  }
+
+  /** The hand that carries the panel: the left one, if there is another to press it with. */
+  private wrist(): Controller | undefined {
+    const there = this.controllers.filter(({ source }) => source);
+    return there.length > 1 ? there.find(({ source }) => source?.handedness === "left") : undefined;
+  }
+
+  private hangPanel(): void {
+    this.panel.hangOn(this.wrist()?.space ?? null, this.playground.stage.rig);
   }
 
   private disconnect(controller: Controller): void {
     this.release(controller);
     controller.source = null;
+    this.hangPanel();
   }
 
   private press(controller: Controller, way: "select" | "squeeze"): void {
     if (controller.by) return;
     const ray = rayOf(controller.space);
-    if (controller.source?.handedness !== "left" && this.panel.press(ray)) return;
+    if (controller !== this.wrist() && this.panel.press(ray)) return;
     const picked = this.playground.stage.pick(ray);
     if (!picked || this.playground.body(picked.body)?.kind !== "dynamic") return;
     controller.by = way;

@@ -1,6 +1,6 @@
 // The panel on the left wrist: what one cannot reach the page for in VR. A picture drawn on a canvas, pressed by pointing
-// with the other hand.
-import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, Raycaster, SRGBColorSpace, type Ray } from "three";
+// with the other hand; with one hand alone it hangs beside the viewer.
+import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, Raycaster, SRGBColorSpace, type Object3D, type Ray } from "three";
 import type { Playground } from "../../app/playground";
 import { allScenes } from "../../scenes/gallery";
 import { settings } from "../../app/settings";
@@ -37,10 +37,15 @@ export class WristPanel {
     this.texture = new CanvasTexture(this.canvas);
     this.texture.colorSpace = SRGBColorSpace;
     this.mesh = new Mesh(new PlaneGeometry(WIDTH, HEIGHT), new MeshBasicMaterial({ map: this.texture, transparent: true }));
-    // Above the back of the hand, tilted towards the face.
-    this.mesh.position.set(0, 0.1, 0.06);
-    this.mesh.rotation.set(-0.7, 0, 0);
     this.buttons = this.makeButtons();
+  }
+
+  /** Above the back of the left hand, tilted towards the face; or, where only one hand is there, beside the viewer, in its reach. */
+  hangOn(wrist: Object3D | null, rig: Object3D): void {
+    if (wrist) this.mesh.position.set(0, 0.1, 0.06);
+    else this.mesh.position.set(-0.42, 1.25, -0.6);
+    this.mesh.rotation.set(wrist ? -0.7 : -0.2, wrist ? 0 : 0.6, 0);
+    (wrist ?? rig).add(this.mesh);
   }
 
   private makeButtons(): Button[] {
