@@ -5,6 +5,8 @@ import { launch, open, serve } from "../tests/support.mjs";
 
 const OUT = new URL("../public/gallery/", import.meta.url);
 const VIEW = { width: 960, height: 600 };
+/** What the panels leave free: that is where the camera puts the scene. Flatland fills the page. */
+const FREE = { x: 72, y: 74, width: 704, height: 440 };
 const PICTURE = { width: 320, height: 200 };
 const QUALITY = 0.55;
 /** When a scene shows what it is about, s of its time. */
@@ -15,9 +17,9 @@ const MOMENTS = {
   bounce2d: 0.95, cradle2d: 0.5, clouds5d: 1.2, wing_nut3d: 1, net4d: 0.35, ramp4d: 0.3, ramp3d: 0.6, rolling4d: 0.6,
 };
 
-/** Moments before this are caught in slow motion, s. */
+/** Moments before this are caught in very slow motion, s, the others in slow motion: a page that draws in software sees few. */
 const EARLY = 1;
-const SLOW = 0.1;
+const SLOW = { early: 0.1, later: 0.35 };
 
 const wanted = process.argv.slice(2);
 mkdirSync(OUT, { recursive: true });
@@ -29,12 +31,12 @@ const names = await page.locator("[data-scene]").evaluateAll((cards) => cards.ma
 await page.close();
 for (const name of wanted.length > 0 ? wanted : names) {
   const moment = MOMENTS[name] ?? USUAL_MOMENT;
-  const { page: each, errors } = await open(context, server.address, { scene: name, query: `&detail=1&speed=${moment < EARLY ? SLOW : 1}` });
+  const { page: each, errors } = await open(context, server.address, { scene: name, query: `&detail=1&speed=${moment < EARLY ? SLOW.early : SLOW.later}` });
   await each.addStyleTag({ content: "#app > :not(.flatland) { display: none !important } .flatland { left: 20px !important; top: 20px !important; bottom: 20px !important; width: 46vw !important }" });
   await each.waitForFunction((wantedTime) => window.hyperbody.frame.time >= wantedTime, moment, { timeout: 60_000 });
   await each.keyboard.press("Space");
   await each.waitForTimeout(500);
-  const shot = (await each.screenshot({ type: "png" })).toString("base64");
+  const shot = (await each.screenshot({ type: "png", ...(name.startsWith("flatland") ? {} : { clip: FREE }) })).toString("base64");
   const webp = await each.evaluate(async ({ data, width, height, quality }) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;

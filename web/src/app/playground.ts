@@ -27,6 +27,8 @@ const READOUT_MS = 80;
 
 /** A longer pause between two pictures is no motion: the tab was hidden. */
 const LONGEST_FRAME = 0.1;
+/** The camera, which only follows, makes up for more of it: pictures of a slow machine come seldom, and the world does not wait. */
+const LONGEST_CAMERA_FRAME = 0.6;
 
 /** What runs after a scene has stopped the engine twice: built in, and small. */
 const SAFE_SCENE = "dice4d";
@@ -368,7 +370,9 @@ export class Playground {
   // --- once a picture -------------------------------------------------------------------------------------------------
 
   private picture(time: number): void {
-    const seconds = Math.min(LONGEST_FRAME, Math.max(0, (time - this.lastPicture) / 1000));
+    const since = Math.max(0, (time - this.lastPicture) / 1000);
+    const seconds = Math.min(LONGEST_FRAME, since);
+    const cameraSeconds = Math.min(LONGEST_CAMERA_FRAME, since);
     this.lastPicture = time;
     this.stage.orbit.calm = this.slice.calm = calm.value;
     for (const listener of this.onPicture) listener(seconds);
@@ -381,9 +385,9 @@ export class Playground {
       this.stage.show(frame, GHOST_REACH);
       this.flat.show(frame);
       this.tell(frame, time);
-      if (!calm.value) this.look.settle(seconds, frame, this.bodies);
+      if (!calm.value) this.look.settle(cameraSeconds, frame, this.bodies);
     }
-    this.stage.render(seconds);
+    this.stage.render(cameraSeconds);
     if (this.flatland.value) this.flat.render(this.slice.frame);
     this.quality.pictureTook(seconds);
     // The canvas still holds what was drawn: it is cleared once this callback returns.

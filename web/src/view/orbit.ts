@@ -95,9 +95,10 @@ export class OrbitCamera {
   }
 
   update(seconds: number): void {
-    this.yawGoal += this.yawSpeed * seconds;
-    this.pitchGoal = MathUtils.clamp(this.pitchGoal + this.pitchSpeed * seconds, LEAST_PITCH, PITCH_LIMIT);
     const slow = Math.exp(-INERTIA_DECAY * seconds);
+    const glide = (1 - slow) / INERTIA_DECAY;
+    this.yawGoal += this.yawSpeed * glide;
+    this.pitchGoal = MathUtils.clamp(this.pitchGoal + this.pitchSpeed * glide, LEAST_PITCH, PITCH_LIMIT);
     this.yawSpeed *= slow;
     this.pitchSpeed *= slow;
     const share = this.calm ? 1 : 1 - Math.exp(-this.rate * seconds);
