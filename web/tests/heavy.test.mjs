@@ -59,6 +59,8 @@ test("with five hundred, no input is lost; and a machine that cannot keep up say
   const context = await browser.newContext(SMALL);
   const { page, errors } = await open(context, server.address, { scene: "hello4d", query: "&speed=4" });
   await run(page, 500, 30);
+  // Four times real time is more than any machine has for them while they fall into a pile.
+  await page.locator(".warning").filter({ hasText: "too slow" }).waitFor({ timeout: 20_000 });
   const waits = [];
   const answered = async (act, seen, argument) => {
     const start = Date.now();
@@ -74,9 +76,6 @@ test("with five hundred, no input is lost; and a machine that cannot keep up say
     await answered(() => page.keyboard.press("e", { delay: 120 }), (before) => window.hyperbody.frame.slice.origin[3] > before, place);
   }
   assert.ok((await page.evaluate(() => window.hyperbody.frame.step)) > step, "the world stood still meanwhile");
-  // Four times real time is more than any machine has for them.
-  await page.locator(".warning").filter({ hasText: "too slow" }).waitFor({ timeout: 20_000 });
-  assert.ok(await page.evaluate(() => window.hyperbody.frame.slowdown < 0.85));
   await answered(() => page.keyboard.press("Space"), () => window.hyperbody.frame.paused);
   t.diagnostic(`from a key to the frame that shows it, ms: ${waits.join(", ")}`);
   assert.deepEqual(errors, []);
