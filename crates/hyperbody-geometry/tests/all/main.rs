@@ -11,6 +11,7 @@ mod projections;
 mod pyramids;
 mod regular;
 mod rounded;
+mod second_hull;
 mod section_volumes;
 mod sections;
 mod sections_curved;
