@@ -12,6 +12,7 @@ mod pyramids;
 mod regular;
 mod rounded;
 mod second_hull;
+mod section_table;
 mod section_volumes;
 mod sections;
 mod sections_curved;

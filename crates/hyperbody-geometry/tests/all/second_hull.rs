@@ -33,7 +33,7 @@ fn across<const N: usize>(edges: &[Vector<N>]) -> Vector<N> {
 }
 
 /// Simplices that fill the hull of points in general position, the first of which span space: each is a facet and what sees it.
-fn simplices_of_hull<const N: usize>(points: &[Vector<N>]) -> Vec<Vec<u32>> {
+pub(crate) fn simplices_of_hull<const N: usize>(points: &[Vector<N>]) -> Vec<Vec<u32>> {
     let middle = points[..=N].iter().fold(Vector::ZERO, |sum, &p| sum + p) / (N as f64 + 1.0);
     let side = |corners: [u32; N]| {
         let base = points[corners[0] as usize];
@@ -110,7 +110,7 @@ fn hulls<const N: usize>() {
 }
 
 /// The surface of a set of simplices: facets of one of them alone, facing outward.
-fn surface<const N: usize>(points: &[Vector<N>], simplices: &[Vec<u32>]) -> Vec<[u32; N]> {
+pub(crate) fn surface<const N: usize>(points: &[Vector<N>], simplices: &[Vec<u32>]) -> Vec<[u32; N]> {
     let mut sides: HashMap<Vec<u32>, Option<[u32; N]>> = HashMap::new();
     for simplex in simplices {
         for (skip, &apex) in simplex.iter().enumerate() {

@@ -30,7 +30,7 @@ fn segment(axis: usize, half_length: f64) -> Factor {
 /// ∫ of the section's volume over the offset, piece by piece between the heights of the vertices of polytopes: in each the
 /// trapezoidal rule in t with x = low + width·(t − sin 2πt / 2π), which is flat at both ends, with twice as many steps each time
 /// until it changes no more.
-fn integrated<const N: usize>(shape: &Shape<N>, normal: Vector<N>, tolerance: f64) -> f64 {
+pub(crate) fn integrated<const N: usize>(shape: &Shape<N>, normal: Vector<N>, tolerance: f64) -> f64 {
     let solids = shape.solids();
     let mut knots = Vec::new();
     for solid in &solids {
@@ -188,7 +188,7 @@ fn sections_of_rounded_shapes_of_four_dimensions_add_up_to_the_volume() {
 }
 
 /// Nodes and weights of Gauss and Legendre on [−1, 1].
-const GAUSS: [(f64, f64); 5] = [
+pub(crate) const GAUSS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
     (0.0, 0.568_888_888_888_888_9),
