@@ -16,7 +16,7 @@ use crate::round_parts::RoundPart;
 use crate::section::density::{self, Simplex, Term};
 use crate::section::{SupportMap, approximate};
 use crate::shape::Piece;
-use crate::tolerances::{FACETING, MAX_PRODUCT_VERTICES};
+use crate::tolerances::{COARSENING, COARSEST, FACETING, MAX_PRODUCT_VERTICES, MOST_COARSER};
 use crate::{Convex, Core, GeometryError, Polytope, Result, Shape};
 
 /// One factor of a product: a convex shape of lower dimension on some of the axes.
@@ -42,6 +42,9 @@ pub struct Factor {
 trait FactorMeasure: std::fmt::Debug + Send + Sync {
     /// As [`SupportMap::section_volume`].
     fn section_volume(&self, normal: &[f64], offset: f64, tolerance: f64) -> f64;
+
+    /// The polytope that contacts see in place of a curved factor, so many times as far from it as usual, and how far that is.
+    fn faceted(&self, coarser: f64) -> Option<Result<(Faceted, f64)>>;
 }
 
 /// A factor with flat faces, filled with simplices.
@@ -52,12 +55,20 @@ impl<const K: usize> FactorMeasure for FlatMeasure<K> {
     fn section_volume(&self, normal: &[f64], offset: f64, _tolerance: f64) -> f64 {
         Vector::from_slice(normal).map_or(0.0, |normal| density::of_simplices(&self.0, normal, offset))
     }
+
+    fn faceted(&self, _coarser: f64) -> Option<Result<(Faceted, f64)>> {
+        None
+    }
 }
 
 impl<const K: usize> FactorMeasure for Convex<K> {
     fn section_volume(&self, normal: &[f64], offset: f64, tolerance: f64) -> f64 {
         Vector::from_slice(normal)
             .map_or(0.0, |normal| SupportMap::<K>::section_volume(self, normal, offset, tolerance))
+    }
+
+    fn faceted(&self, coarser: f64) -> Option<Result<(Faceted, f64)>> {
+        Some(Faceted::of_convex(self, coarser))
     }
 }
 
@@ -102,7 +113,7 @@ impl Factor {
             },
         };
         let mass = shape.mass_properties(1.0)?;
-        let (faceted, faceting) = Faceted::of_convex(&convex)?;
+        let (faceted, faceting) = Faceted::of_convex(&convex, 1.0)?;
         let measure: Arc<dyn FactorMeasure> =
             if convex.radius == 0.0 { Arc::new(FlatMeasure(filling(&convex.core)?)) } else { Arc::new(convex.clone()) };
         Ok(Self {
@@ -248,7 +259,7 @@ fn corners<const K: usize>(core: &Core<K>) -> Vec<Vector<K>> {
 
 impl Faceted {
     /// The polytope of a convex shape, and how far the two are apart at most.
-    fn of_convex<const K: usize>(convex: &Convex<K>) -> Result<(Self, f64)> {
+    fn of_convex<const K: usize>(convex: &Convex<K>, coarser: f64) -> Result<(Self, f64)> {
         if K == 1 {
             let reach = convex.support(Vector::unit(0))[0];
             let start = convex.support(-Vector::unit(0))[0];
@@ -278,7 +289,7 @@ impl Faceted {
                 format!("a curved factor of a product has {K} dimensions: the limit is {most}; use a polytope");
             return Err(GeometryError::new(Unsupported, message));
         };
-        let error = part * convex.radius;
+        let error = (part * coarser).min(COARSEST) * convex.radius;
         let inner = approximate(convex, error)?;
         let centre = inner.vertex_mean();
         let inner = inner.translated(-centre);
@@ -365,11 +376,12 @@ impl<const N: usize> Product<N> {
 
 impl<const N: usize> Shape<N> {
     /// The product of shapes of lower dimension, each on axes of its own: a polytope if all factors are, and otherwise a
-    /// [`Shape::Product`].
+    /// [`Shape::Product`]. Where contacts would need more than [`MAX_PRODUCT_VERTICES`] vertices, curved factors get fewer than
+    /// usual: [`Product::faceting`] says how far that is from the shape.
     ///
     /// # Errors
-    /// `BadCount` unless there are two factors or more whose axes are all axes once, or if contacts would need more than
-    /// [`MAX_PRODUCT_VERTICES`] vertices.
+    /// `BadCount` unless there are two factors or more whose axes are all axes once, or if even with fewer facets contacts would
+    /// need more than [`MAX_PRODUCT_VERTICES`] vertices.
     pub fn product(factors: Vec<Factor>) -> Result<Self> {
         let mut axes: Vec<usize> = factors.iter().flat_map(|factor| factor.axes.iter().copied()).collect();
         axes.sort_unstable();
@@ -383,6 +395,7 @@ impl<const N: usize> Shape<N> {
                 ),
             ));
         }
+        let factors = within_limit(factors)?;
         let polytope = Arc::new(multiply::<N>(&factors)?);
         let faceting = factors.iter().map(|factor| factor.faceting).fold(0.0, f64::max);
         if factors.iter().all(|factor| factor.faceting == 0.0) {
@@ -392,9 +405,27 @@ impl<const N: usize> Shape<N> {
     }
 }
 
+/// The factors with as many facets as their product has room for.
+fn within_limit(mut factors: Vec<Factor>) -> Result<Vec<Factor>> {
+    let mut coarser = 1.0;
+    while vertex_counts(&factors).iter().product::<usize>() > MAX_PRODUCT_VERTICES && coarser < MOST_COARSER {
+        coarser *= COARSENING;
+        for factor in &mut factors {
+            if let Some(faceted) = factor.measure.faceted(coarser) {
+                (factor.faceted, factor.faceting) = faceted?;
+            }
+        }
+    }
+    Ok(factors)
+}
+
+fn vertex_counts(factors: &[Factor]) -> Vec<usize> {
+    factors.iter().map(|factor| factor.faceted.vertices.len() / factor.axes.len()).collect()
+}
+
 /// The product of the factors' polytopes. Vertex numbers count through the factors, the first one fastest.
 fn multiply<const N: usize>(factors: &[Factor]) -> Result<Polytope<N>> {
-    let counts: Vec<usize> = factors.iter().map(|f| f.faceted.vertices.len() / f.axes.len()).collect();
+    let counts = vertex_counts(factors);
     let total = counts.iter().fold(1_usize, |product, &count| product.saturating_mul(count));
     if total > MAX_PRODUCT_VERTICES {
         return Err(GeometryError::new(

@@ -65,6 +65,15 @@ pub const MAX_POLYGON: usize = 10_000;
 /// of its radius. In the plane that is a 32-gon; in more dimensions the number of facets would grow too fast for that.
 pub(crate) const FACETING: [f64; 5] = [0.0, 0.0, 0.005, 0.01, 0.03];
 
+/// Where a product would have too many vertices, its curved factors are taken this many times coarser, again and again.
+pub(crate) const COARSENING: f64 = 1.25;
+
+/// Beyond this many times nothing is gained any more.
+pub(crate) const MOST_COARSER: f64 = 60.0;
+
+/// How far such a polytope may be from the factor at most, in parts of its radius: a ball still has dozens of facets.
+pub(crate) const COARSEST: f64 = 0.3;
+
 /// Most vertices of a product: finding the edges takes time with the square of it, seconds here.
 pub const MAX_PRODUCT_VERTICES: usize = 4096;
 
