@@ -262,15 +262,3 @@ fn sections_of_rounded_shapes_of_few_dimensions_add_up_to_the_volume() {
     rounded::<4>(&mut table, "box", TOLERANCE, 40);
     table.print();
 }
-
-/// Those that take minutes.
-#[test]
-#[ignore = "takes minutes: cargo test --release -p hyperbody-geometry --test all section_table -- --nocapture --include-ignored"]
-fn sections_of_rounded_shapes_of_many_dimensions_add_up_to_the_volume() {
-    let mut table = Table::default();
-    rounded::<4>(&mut table, "simplex", 1e-7, 30);
-    rounded::<5>(&mut table, "box", 1e-6, 20);
-    rounded::<6>(&mut table, "box", 1e-5, 12);
-    rounded::<5>(&mut table, "simplex", 1e-5, 12);
-    table.print();
-}
