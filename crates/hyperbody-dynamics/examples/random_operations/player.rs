@@ -322,6 +322,7 @@ impl<const N: usize> Player<N> {
         self.take_back(owned);
         // What was recorded belongs to another history.
         self.past.clear();
+        self.before.clear();
         true
     }
 
@@ -330,7 +331,10 @@ impl<const N: usize> Player<N> {
         let there = self.world.step_count().checked_sub(steps);
         let held = there.filter(|step| self.past.steps().is_some_and(|(first, last)| (first..=last).contains(step)));
         match (self.past.back(&mut self.world, steps), held) {
-            (Ok(()), Some(step)) => self.take_back(self.before[&step].clone()),
+            (Ok(()), Some(step)) => {
+                self.take_back(self.before[&step].clone());
+                self.before.retain(|&at, _| at <= step);
+            }
             (Err(error), None) => assert_eq!(error.kind(), WorldErrorKind::NotHeld),
             (result, held) => panic!("back by {steps} came to {result:?}, though {held:?} was held"),
         }
