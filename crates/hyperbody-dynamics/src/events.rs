@@ -9,7 +9,7 @@ use hyperbody_math::{Bivector, Vector};
 
 use crate::body::Body;
 use crate::counting::Counting;
-use crate::{BodyHandle, JointHandle, World};
+use crate::{BodyHandle, BodyKind, JointHandle, World};
 
 /// What a touch did in the last step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -280,8 +280,12 @@ impl<const N: usize> World<N> {
         next.clear();
         let mut before = touching.iter().copied().peekable();
         let end = |pair: (BodyHandle, BodyHandle), next: &mut Vec<_>, contacts: &mut Vec<_>| {
+            let asleep = |handle| {
+                bodies.get(handle).is_some_and(|body: &Body<N>| body.kind == BodyKind::Dynamic && !body.is_moving())
+            };
             let still = |handle| bodies.get(handle).is_some_and(|body: &Body<N>| !body.is_moving());
-            if still(pair.0) && still(pair.1) {
+            // Two bodies that nothing moves, since one was made static, touch no more.
+            if still(pair.0) && still(pair.1) && (asleep(pair.0) || asleep(pair.1)) {
                 next.push(pair);
             } else {
                 let (point, normal) = (Vector::ZERO, Vector::ZERO);

@@ -103,6 +103,14 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) contact: Option<Box<Contact<N>>>,
 }
 
+impl<const N: usize> Pair<N> {
+    /// What it takes beside itself, bytes.
+    pub(crate) fn memory(&self) -> usize {
+        let search = size_of::<Search<N>>();
+        search + self.contact.as_ref().map_or(0, |_| size_of::<Contact<N>>())
+    }
+}
+
 /// What searching for contact anew starts from.
 #[derive(Clone, Debug)]
 pub(crate) struct Search<const N: usize> {

@@ -99,7 +99,8 @@ impl<const N: usize> World<N> {
     }
 
     /// Goes back, or on, to a snapshot, of this world or another one: from here the world does to the bit what that one did.
-    /// Handles are good again as they were then. Threads, clock and contact hook stay as they are.
+    /// Handles are good again as they were then; those that were given out later are to be dropped, since what is added next may
+    /// get the same ones. Threads, clock and contact hook stay as they are.
     pub fn restore(&mut self, snapshot: &Snapshot<N>) {
         self.gravity = snapshot.gravity;
         self.dt = snapshot.dt;

@@ -190,6 +190,11 @@ impl<const N: usize> World<N> {
                 "a joint keeps its bodies; remove it and add another one",
             ));
         }
+        let mut def = def;
+        if def.coupling != joint.def.coupling && def.phase == joint.def.phase {
+            // Other teeth mesh as the wheels lie now.
+            def.phase = None;
+        }
         let def = self.meshed(def)?;
         let centre = |slot| self.bodies.at(slot).map_or(Vector::ZERO, |body| body.centre_in_body);
         let (a, b) = (joint.body_a, joint.body_b);

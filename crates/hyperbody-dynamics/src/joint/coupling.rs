@@ -63,6 +63,12 @@ pub enum Coupling {
 /// Most teeth of a wheel: with more, half a tooth would be less than what loaded joints give way.
 const MOST_TEETH: i32 = 1000;
 
+/// Least cosine between the planes of two wheels: 8°.
+const PARALLEL: f64 = 0.99;
+
+/// Least share of the distance of two wheels that lies in their plane.
+const NEAREST: f64 = 0.1;
+
 impl Coupling {
     /// What it holds, as it is: rad of teeth for gears, else m. `gap` leads from the first anchor to the second; the columns
     /// of `a` and `b` are the axes of the frames, all in the same coordinates.
@@ -96,7 +102,7 @@ impl Coupling {
         }
     }
 
-    /// m for each unit of what it holds, with the anchors `distance` apart.
+    /// m for each unit of what it holds, with the anchors `distance` apart in its plane.
     pub(crate) fn scale(&self, distance: f64) -> f64 {
         match *self {
             Self::Gear { teeth, .. } => distance / f64::from(teeth.0 + teeth.1),
@@ -110,10 +116,29 @@ impl Coupling {
         difference - period * (difference / period).round()
     }
 
-    fn plane(&self) -> (u8, u8) {
+    pub(crate) fn plane(&self) -> (u8, u8) {
         match *self {
             Self::Gear { plane, .. } | Self::Rack { plane, .. } | Self::Screw { plane, .. } => plane,
         }
+    }
+
+    /// Why wheels that lie like this do not mesh.
+    fn cannot_mesh<const N: usize>(&self, gap: Vector<N>, a: &Matrix<N>, b: &Matrix<N>) -> Option<&'static str> {
+        if matches!(self, Self::Screw { .. }) {
+            return None;
+        }
+        let of = |frame: &Matrix<N>, axis: u8| frame.column(usize::from(axis));
+        let (i, j) = self.plane();
+        let (ai, aj, bi, bj) = (of(a, i), of(a, j), of(b, i), of(b, j));
+        let together = ai.dot(bi) * aj.dot(bj) - ai.dot(bj) * aj.dot(bi);
+        if together.abs() < PARALLEL {
+            return Some("the wheels turn in different planes; the planes of both frames must be parallel");
+        }
+        let (x, y) = (ai.dot(gap), aj.dot(gap));
+        let reach = (x * x + y * y).sqrt();
+        (matches!(self, Self::Gear { .. }) && reach < (NEAREST * gap.norm()).max(1e-6)).then_some(
+            "the wheels have their centres at the same place of their plane; they must lie apart in it to mesh between them",
+        )
     }
 
     /// Within a joint of which the axes and planes may do this. Not generic, so that programs hold it once.
@@ -155,10 +180,10 @@ impl Coupling {
 }
 
 fn check_length(what: &str, length: f64) -> Result<(), WorldError> {
-    if (1e-6..=1e6).contains(&length.abs()) {
+    if (1e-3..=1e6).contains(&length.abs()) {
         return Ok(());
     }
-    Err(WorldError::bad_number(format!("{what} is {length} m; it must lie between 1e-6 and 1e6, of either sign")))
+    Err(WorldError::bad_number(format!("{what} is {length} m; it must lie between 1e-3 and 1e6, of either sign")))
 }
 
 impl<const N: usize> JointDef<N> {
@@ -223,12 +248,14 @@ impl<const N: usize> JointDef<N> {
 
     /// The same, with what a coupling holds as the bodies lie now, where the definition does not say.
     pub(crate) fn meshed(mut self, world_from_a: &Pose<N>, world_from_b: &Pose<N>) -> Result<Self, WorldError> {
-        let (Some(coupling), None) = (self.coupling, self.phase) else { return Ok(self) };
+        let Some(coupling) = self.coupling else { return Ok(self) };
         let (a, b) = (*world_from_a * self.frame_a, *world_from_b * self.frame_b);
         let gap = b.translation - a.translation;
-        if matches!(coupling, Coupling::Gear { .. }) && gap.norm() < 1e-6 {
-            let message = "the wheels have their centres at the same place; they must lie apart to mesh between them";
-            return Err(WorldError::new(WorldErrorKind::NotAllowed, message));
+        if let Some(why) = coupling.cannot_mesh(gap, a.rotation.matrix(), b.rotation.matrix()) {
+            return Err(WorldError::new(WorldErrorKind::NotAllowed, why));
+        }
+        if self.phase.is_some() {
+            return Ok(self);
         }
         self.phase = Some(coupling.measure(gap, a.rotation.matrix(), b.rotation.matrix()));
         Ok(self)

@@ -19,7 +19,6 @@
 //! | [`JointDef::slider`] | all directions and a line | 1 | 0 |
 //! | [`JointDef::distance`], [`JointDef::rope`] | the distance of two points, or its upper bound | N − 1 (N) | N(N−1)/2 |
 //! | [`JointDef::mouse`] | nothing: a spring of limited force draws a point to a target | N | N(N−1)/2 |
-//!
 //! | [`JointDef::gear`], [`JointDef::rack`] | what rolls on each other: one number of both bodies ([`Coupling`]) | together N + N(N−1)/2 − 1 | |
 //! | [`JointDef::screw`] | a line and a plane: goes along as it turns | together 1 | |
 //!

@@ -7,6 +7,9 @@
 
 use std::collections::VecDeque;
 
+use hyperbody_geometry::Shape;
+
+use crate::pairs::Pair;
 use crate::{Snapshot, World, WorldError, WorldErrorKind};
 
 /// The past of one world: [`record`](Rewind::record) each step before taking it, and go [`back`](Rewind::back).
@@ -49,9 +52,8 @@ pub struct Rewind<const N: usize> {
 }
 
 impl<const N: usize> Rewind<N> {
-    /// Holds nothing yet, and at most `steps` moments in `bytes` bytes of memory, shapes not counted, which worlds share with
-    /// their past as long as a body of that shape is in either. A moment of five tesseracts on the ground takes 14 kB, and
-    /// grows with the number of bodies and of what touches.
+    /// Holds nothing yet, and at most `steps` moments in `bytes` bytes of memory, polytopes and products not counted, which worlds
+    /// share with their past as long as a body of that shape is in either. In 4D a body takes about 2 kB, and a touch 3 kB.
     #[must_use]
     pub fn new(steps: usize, bytes: usize) -> Self {
         Self { moments: VecDeque::new(), most_steps: steps, most_bytes: bytes, bytes: 0 }
@@ -86,7 +88,8 @@ impl<const N: usize> Rewind<N> {
 
     /// Takes the world back by `steps` steps, to the bit: to where it was when the step that is taken back first was recorded.
     /// Going back by 0 steps undoes what was changed since the last record, if that was of this step. Handles are
-    /// good again as they were then, and what was held of later steps is forgotten.
+    /// good again as they were then, and what was held of later steps is forgotten. Handles that were given out after that moment are
+    /// to be dropped: what is added next may get the same ones.
     ///
     /// # Errors
     /// If that moment is not held (never recorded, or given up for newer ones). The world stays as it is.
@@ -158,13 +161,17 @@ impl<const N: usize> Rewind<N> {
 }
 
 impl<const N: usize> World<N> {
-    /// What a snapshot of it takes, bytes, shapes not counted. Maps are counted with the nodes of their trees two thirds full.
+    /// What a snapshot of it takes, bytes, polytopes and products not counted, which are shared. Maps are counted with the nodes of their trees two thirds full.
     fn memory_of_state(&self) -> usize {
         fn of<T>(list: &[T]) -> usize {
             size_of_val(list)
         }
         let bodies = of(&self.bodies.slots)
-            + self.bodies.values().map(|body| of(&body.colliders) + of(&body.joints)).sum::<usize>();
+            + self
+                .bodies
+                .values()
+                .map(|body| of(&body.colliders) + of(&body.joints) + of_shape(&body.shape))
+                .sum::<usize>();
         let joints = of(&self.joints.slots)
             + self
                 .joints
@@ -173,7 +180,8 @@ impl<const N: usize> World<N> {
                 .sum::<usize>();
         let colliders = of(&self.colliders) + of(&self.motions) + self.tree.memory();
         let in_maps = self.pairs.slot_of.len() * size_of::<((u32, u32), u32)>() + self.ignored.0.len() * 8;
-        let pairs = of(&self.pairs.slots) + of(&self.pairs.free) + in_maps * 3 / 2;
+        let met = self.pairs.slots.iter().flatten().map(Pair::memory).sum::<usize>();
+        let pairs = of(&self.pairs.slots) + met + of(&self.pairs.free) + in_maps * 3 / 2;
         let (islands, events) = (&self.islands, &self.events);
         let asleep = of(&islands.sleeping) + islands.sleeping.iter().map(|island| of(island)).sum::<usize>();
         let resting = of(&islands.parent) + of(&islands.least_slow_time) + of(&islands.became) + of(&islands.held);
@@ -181,5 +189,16 @@ impl<const N: usize> World<N> {
             of(&events.contacts) + of(&events.found) + of(&events.order) + of(&events.touching) + of(&events.next);
         let noticed = of(&events.sensors) + of(&events.inside) + of(&events.noticed) + of(&events.broken);
         size_of::<Snapshot<N>>() + bodies + joints + colliders + pairs + asleep + resting + told + noticed
+    }
+}
+
+/// What a shape takes beside itself.
+fn of_shape<const N: usize>(shape: &Shape<N>) -> usize {
+    match shape {
+        Shape::Rounded { .. } => size_of::<Shape<N>>(),
+        Shape::Compound { parts } => {
+            size_of_val(parts.as_slice()) + parts.iter().map(|(_, part)| of_shape(part)).sum::<usize>()
+        }
+        _ => 0,
     }
 }

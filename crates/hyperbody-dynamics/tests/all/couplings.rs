@@ -201,6 +201,51 @@ fn screw<const N: usize>() {
     }
 }
 
+/// A nut on a fine thread that is struck along it does not jump over turns: what the blow asks of a substep is most of a turn.
+#[test]
+fn a_struck_nut_stays_on_its_thread() {
+    let lead = 0.005;
+    let mut world = world::<3>(Vector::ZERO);
+    let nut = wheel(&mut world, Vector::ZERO);
+    let (i, j) = plane::<3>();
+    world.add_joint(JointDef::screw(None, nut, Pose::IDENTITY, Pose::IDENTITY, (i, j), 0, lead)).unwrap();
+    world.body_mut(nut).unwrap().set_velocity(Vector::unit(0)).unwrap();
+    let mut turned = Counter::new(nut);
+    for _ in 0..60 {
+        world.step();
+        turned.look(&world, None);
+    }
+    let (at, angle) = (world.body(nut).unwrap().position()[0], turned.look(&world, None));
+    let (mass, moment) = (world.body(nut).unwrap().mass(), moment(&world, nut));
+    let per_metre = TAU / lead;
+    let speed = mass / (mass + moment * per_metre * per_metre);
+    assert!((at - lead * angle / TAU).abs() < 1e-5, "at {at} m after {angle} rad");
+    assert!(
+        (angle / (speed * per_metre) - 1.0).abs() < 0.05,
+        "{angle} rad in a second, {} expected",
+        speed * per_metre
+    );
+}
+
+/// Wheels that come to lie at one place mesh nowhere, which makes no number of anything; such joints cannot be added.
+#[test]
+fn wheels_at_one_place_stay_numbers() {
+    let mut world = world::<4>(Vector::ZERO);
+    let (a, b) = (wheel(&mut world, Vector::ZERO), wheel(&mut world, Vector::unit(1)));
+    let (i, j) = plane::<4>();
+    let def = JointDef::gear(a, b, Pose::IDENTITY, Pose::IDENTITY, (i, j), (10, 20));
+    let gear = world.add_joint(def.clone()).unwrap();
+    let mut def = def;
+    def.phase = world.joint(gear).unwrap().def().phase;
+    world.body_mut(b).unwrap().set_pose(Pose::from_translation(Vector::unit(0) * 1e-9)).unwrap();
+    for _ in 0..10 {
+        world.step();
+    }
+    assert!(world.quarantined().is_empty() && world.energy().kinetic.is_finite());
+    world.remove_joint(gear).unwrap();
+    assert_eq!(world.add_joint(def).unwrap_err().kind(), WorldErrorKind::NotAllowed);
+}
+
 /// A gear whose second wheel is held fast breaks at its strength, and not before.
 #[test]
 fn teeth_break() {

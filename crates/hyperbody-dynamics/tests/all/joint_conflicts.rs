@@ -1,5 +1,6 @@
 //! Joints that ask for the same twice, or for what cannot be: they share the load, meet half way and come to rest. Nothing
-//! blows up, nothing turns into no number, momenta are kept.
+//! turns into no number, momenta are kept. Ball joints on short arms that are off by more than the body's size whip it round first:
+//! of them only that is asked that every number stays one.
 
 use crate::common::{ball, cuboid, down, in_all_dimensions, run, world};
 use hyperbody_dynamics::{BodyDef, BodyHandle, Freedom, JointDef, World};
@@ -88,12 +89,12 @@ fn with_the_world<const N: usize>() {
             for def in defs {
                 world.add_joint(def).unwrap();
             }
-            // Ball joints on short arms that are off by more than the body's size whip it round before it rests.
-            if what.starts_with("ball joints") && by > 1.0 {
-                continue;
-            }
+            let whips = what.starts_with("ball joints") && by > 1.0;
             let what = format!("{what} by {by}");
             let speed = fastest(&mut world, 6.0, &what);
+            if whips {
+                continue;
+            }
             assert!(speed < 30.0, "{N}D, {what}: {speed} m/s or rad/s");
             // Rods leave it free to swing about what they agree on.
             if what.starts_with("rods") {

@@ -46,11 +46,18 @@ impl<const N: usize> Geometry<N> {
     pub(super) fn off_mesh(&self, coupling: &Coupling, phase: f64) -> f64 {
         let frame_b = self.axes * self.relative;
         let off = coupling.off(coupling.measure(self.gap, &self.axes, &frame_b) - phase);
-        off * coupling.scale(self.gap.norm())
+        off * coupling.scale(self.reach(coupling))
+    }
+
+    /// How far the anchors are from each other in the plane of the coupling, m.
+    fn reach(&self, coupling: &Coupling) -> f64 {
+        let (i, j) = coupling.plane();
+        let along = |axis: u8| self.axes.column(usize::from(axis)).dot(self.gap);
+        (along(i) * along(i) + along(j) * along(j)).sqrt()
     }
 
     /// m after which everything is as before, but for whole teeth and turns.
     pub(super) fn mesh_period(&self, coupling: &Coupling) -> f64 {
-        (coupling.period() * coupling.scale(self.gap.norm())).abs()
+        (coupling.period() * coupling.scale(self.reach(coupling))).abs()
     }
 }

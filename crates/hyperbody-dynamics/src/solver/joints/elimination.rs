@@ -123,7 +123,7 @@ fn dearest_body(links: &[Link]) -> u64 {
     ends.sort_unstable();
     let of_body = ends.chunk_by(|one, other| one.0 == other.0);
     let rows = of_body.map(|ends| ends.iter().map(|&(_, rows)| rows).sum::<u64>()).max().unwrap_or(0);
-    rows * rows * rows / 3
+    rows.saturating_mul(rows).saturating_mul(rows) / 3
 }
 
 /// Pairs of links that share a body that moves.

@@ -73,6 +73,9 @@ impl<const N: usize> JointRows<N> {
     }
 }
 
+/// Least way, m, after which a coupling can be as before.
+const LEAST_PERIOD: f64 = 1e-9;
+
 /// Turns of the iteration to the nearest rotation: from blocks that are a tenth off, 1e-8 after two and rounding after three.
 const POLAR_TURNS: usize = 3;
 
@@ -114,14 +117,15 @@ impl<const N: usize> Geometry<N> {
         }
     }
 
-    /// A change of a coordinate, the short way round: angles jump from π to −π, couplings by a tooth or a turn.
-    pub(super) fn shortest(&self, coordinate: Coordinate, change: f64) -> f64 {
+    /// A change of a coordinate that is next to what its rate lets expect: angles jump from π to −π, couplings by a tooth or a turn.
+    pub(super) fn change_near(&self, expected: f64, coordinate: Coordinate, change: f64) -> f64 {
         let period = match (coordinate, &self.coupling) {
             (Coordinate::Angle(..), _) => TAU,
             (Coordinate::Coupled, Some((coupling, _))) => self.mesh_period(coupling),
             _ => return change,
         };
-        change - period * (change / period).round()
+        // Wheels of which one has come to lie in the other mesh nowhere.
+        if period < LEAST_PERIOD { change } else { change - period * ((change - expected) / period).round() }
     }
 
     /// Where the impulse between two anchors acts, as offsets from both centres. Between two moving bodies it is one point,

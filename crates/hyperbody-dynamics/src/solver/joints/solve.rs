@@ -289,8 +289,8 @@ impl<const N: usize> JointRows<N> {
         let rows = &mut rows[self.first..self.end];
         let ahead = self.geometry(&a.next, &b.next, rows);
         for row in rows {
-            let change = ahead.shortest(row.spec.coordinate, ahead.value(row.spec.coordinate) - row.value);
-            row.curve = change / h - row.rate(a, b, moving);
+            let (rate, change) = (row.rate(a, b, moving), ahead.value(row.spec.coordinate) - row.value);
+            row.curve = ahead.change_near(rate * h, row.spec.coordinate, change) / h - rate;
         }
     }
 
