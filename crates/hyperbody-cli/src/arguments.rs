@@ -90,11 +90,13 @@ pub(crate) struct RunArguments {
 #[command(after_help = "Examples:\n  \
     hyperbody inspect stack4d                            a built-in scene\n  \
     hyperbody inspect pit.hbrec                          a recording, checked to the last byte\n  \
-    hyperbody inspect 24-cell.off                        a polytope from an OFF file\n  \
+    hyperbody inspect 24-cell                            a regular polytope; also \"{5/2,5}\" or \"great icosahedron\"\n  \
+    hyperbody inspect crystal.off                        a polytope from an OFF file\n  \
     echo '{\"box\": {\"half_extents\": [1, 2, 3, 4]}}' > box.json && hyperbody inspect box.json\n\n\
     A shape file holds what stands under \"shape\" in a scene.")]
 pub(crate) struct InspectArguments {
-    /// A scene (file or built-in name), a recording, or a shape: an OFF file, or the shape of a scene as .json
+    /// A scene (file or built-in name), a recording, or a shape: an OFF file, the shape of a scene as .json, or the name of a
+    /// regular polytope of circumradius 1
     pub(crate) file: String,
     /// Dimension of a shape that does not tell, such as a ball
     #[arg(long, value_name = "N", value_parser = whole::<u8>(2..=6), allow_negative_numbers = true)]

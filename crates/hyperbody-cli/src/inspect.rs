@@ -6,7 +6,7 @@ mod shape;
 
 use std::path::Path;
 
-use hyperbody_scene::{Scene, ShapeFile};
+use hyperbody_scene::{Scene, ShapeFile, built_in};
 
 use crate::arguments::InspectArguments;
 use crate::failure::Failure;
@@ -22,13 +22,23 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<(), Failure> {
     }
     if path.is_file() && !ShapeFile::holds_scene(path)? {
         let file = ShapeFile::load(path, arguments.dimension.map(usize::from)).map_err(with_dimension_hint)?;
-        let report = shape::report(&file)?;
-        return if arguments.json { print_json(&report) } else { print(shape::as_text(&report, &arguments.file)) };
+        return inspect_shape(arguments, &file);
+    }
+    if !path.exists()
+        && built_in(&arguments.file).is_err()
+        && let Some(shape) = ShapeFile::named(&arguments.file, arguments.dimension.map(usize::from))
+    {
+        return inspect_shape(arguments, &shape.map_err(with_dimension_hint)?);
     }
     let scene: Scene = source::scene(&arguments.file)?;
     check_dimension(arguments, scene.dimension)?;
     let report = scene::report(&scene)?;
     if arguments.json { print_json(&report) } else { print(scene::as_text(&report)) }
+}
+
+fn inspect_shape(arguments: &InspectArguments, shape: &ShapeFile) -> Result<(), Failure> {
+    let report = shape::report(shape)?;
+    if arguments.json { print_json(&report) } else { print(shape::as_text(&report, &arguments.file)) }
 }
 
 fn check_dimension(arguments: &InspectArguments, dimension: usize) -> Result<(), Failure> {

@@ -20,7 +20,7 @@ use project::Eye;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
-    hyperbody slice 24-cell.off -o middle.stl                              across w, through the origin\n  \
+    hyperbody slice 24-cell -o middle.stl                                  across w, through the origin\n  \
     hyperbody slice 24-cell.off -o corner.glb --normal 1,1,1,1 --offset 0.5\n  \
     hyperbody slice duocylinder.json -o round.obj --tolerance 0.0001       a curved shape, to a tenth of a millimetre\n  \
     hyperbody slice 24-cell.off -o wires.obj --project --eye 3              all edges and faces, in perspective\n  \
@@ -29,7 +29,7 @@ use project::Eye;
     w, they are x, y and z. Faces keep the number of the cell that they were cut from: as groups in .obj and as colours in \
     .glb.")]
 pub(crate) struct SliceArguments {
-    /// The shape: an OFF file, or the shape of a scene as .json
+    /// The shape: an OFF file, the shape of a scene as .json, or the name of a regular polytope of circumradius 1
     pub(crate) file: PathBuf,
     /// The file to write: .stl, .obj, .off or .glb
     #[arg(short, long, value_name = "OUT")]
@@ -157,7 +157,9 @@ fn load(path: &Path, dimension: Option<u8>) -> Result<ShapeFile, Failure> {
         let message = "holds a scene; name a shape: an OFF file, or what stands under \"shape\" in a scene as .json";
         return Err(Failure::Input(format!("{}: {message}", path.display())));
     }
-    let file = ShapeFile::load(path, dimension.map(usize::from))?;
+    let dimension = dimension.map(usize::from);
+    let named = path.to_str().filter(|_| !path.exists()).and_then(|name| ShapeFile::named(name, dimension));
+    let file = named.unwrap_or_else(|| ShapeFile::load(path, dimension))?;
     if !(4..=6).contains(&file.dimension) {
         let message = format!("is a shape of {} dimensions; sections in 3D are those of 4 to 6", file.dimension);
         return Err(Failure::Input(format!("{}: {message}", path.display())));

@@ -1,16 +1,16 @@
-//! Shapes that stand in a file of their own.
+//! Shapes that stand in a file of their own, or that have a name.
 
 use std::path::{Path, PathBuf};
 
 use hyperbody::geometry::MassProperties;
-use hyperbody::geometry::regular::Regular;
+use hyperbody::geometry::regular::{self, Regular, Size};
 use hyperbody::geometry::star;
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::Shape;
 
 use crate::build::ShapeBuilder;
 use crate::dimension::DIMENSIONS;
-use crate::error::SceneError;
+use crate::error::{ErrorKind, SceneError, meant};
 use crate::json::Json;
 use crate::model::{Beside, PolytopeSpec, ShapeSpec};
 use crate::off;
@@ -35,6 +35,7 @@ impl ShapeFile {
     /// # Errors
     /// If the file cannot be read or is neither OFF nor JSON.
     pub fn holds_scene(path: &Path) -> Result<bool> {
+        refuse_other_formats(path)?;
         if is_off(path) {
             return Ok(false);
         }
@@ -50,7 +51,30 @@ impl ShapeFile {
     /// `None`.
     pub fn load(path: impl AsRef<Path>, dimension: Option<usize>) -> Result<Self> {
         let path = path.as_ref();
+        refuse_other_formats(path)?;
         Self::read(path, dimension).map_err(|error| error.in_file(Some(path)))
+    }
+
+    /// The regular polytope of circumradius 1 m, convex or a star, with a name such as `"24-cell"` or a Schläfli symbol such as
+    /// `"{5/2,5}"`. The dimension is `dimension` where there are several of that name, as of `"simplex"`. `None` if no regular
+    /// polytope of any dimension has this name.
+    ///
+    /// # Errors
+    /// If there is none of that dimension, or several and `dimension` is `None`.
+    #[must_use]
+    pub fn named(name: &str, dimension: Option<usize>) -> Option<Result<Self>> {
+        let (name, size) = (name.to_owned(), Size::Circumradius(1.0));
+        let shape = if dimensions_of(&name).next().is_some() {
+            ShapeSpec::Polytope(PolytopeSpec::Regular { name, size })
+        } else if star::symbol(&name).is_ok() {
+            ShapeSpec::Star { name, size }
+        } else {
+            return None;
+        };
+        let told = shape.dimension();
+        let file = PathBuf::from(shape.regular_name().unwrap_or_default());
+        let settled = settled_dimension(&shape, told, dimension).map_err(|error| error.in_file(Some(&file)));
+        Some(settled.map(|dimension| Self { dimension, shape, closed: true, file }))
     }
 
     fn read(path: &Path, dimension: Option<usize>) -> Result<Self> {
@@ -64,18 +88,7 @@ impl ShapeFile {
             let told = shape.dimension();
             (shape, told, true)
         };
-        let refuse = |message: String| Err(SceneError::value("", message));
-        let dimension = match (told, dimension) {
-            (Some(told), Some(wanted)) if told != wanted => {
-                return refuse(format!("holds a shape of {told} dimensions, not {wanted}"));
-            }
-            (Some(told), _) => told,
-            (None, Some(wanted)) => wanted,
-            (None, None) => return refuse("does not tell its dimension; say it, from 2 to 6".to_owned()),
-        };
-        if !DIMENSIONS.contains(&dimension) {
-            return refuse(format!("holds a shape of {dimension} dimensions; there are shapes of 2 to 6"));
-        }
+        let dimension = settled_dimension(&shape, told, dimension)?;
         Ok(Self { dimension, shape, closed, file: path.to_path_buf() })
     }
 
@@ -115,6 +128,64 @@ fn is_off(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("off"))
 }
 
+/// Files of triangles that many programs write: they are written here too, and not read.
+const WRITTEN_ONLY: [&str; 5] = ["stl", "obj", "glb", "gltf", "ply"];
+
+fn refuse_other_formats(path: &Path) -> Result<()> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if !WRITTEN_ONLY.contains(&extension.as_str()) {
+        return Ok(());
+    }
+    let message = format!(
+        "is a .{extension} file, and shapes are read from .off files: save it as one, with corners that faces share, as most \
+         programs for meshes can"
+    );
+    Err(SceneError::new(ErrorKind::File, "", message).in_file(Some(path)))
+}
+
+/// The dimensions in which there is a regular convex polytope of that name.
+fn dimensions_of(name: &str) -> impl Iterator<Item = usize> {
+    DIMENSIONS.filter(move |&dimension| Regular::from_name(dimension, name).is_ok())
+}
+
+/// The dimension that a shape tells, or the one that is wanted.
+fn settled_dimension(shape: &ShapeSpec, told: Option<usize>, wanted: Option<usize>) -> Result<usize> {
+    let refuse = |message: String| Err(SceneError::value("", message));
+    let dimension = match (told, wanted) {
+        (Some(told), Some(wanted)) if told != wanted => {
+            return refuse(format!("holds a shape of {told} dimensions, not {wanted}"));
+        }
+        (Some(told), _) => told,
+        (None, Some(wanted)) => wanted,
+        (None, None) => {
+            let name = shape.regular_name().filter(|name| dimensions_of(name).next().is_none());
+            return refuse(match name {
+                Some(name) => unknown_name(name),
+                None => "does not tell its dimension; say it, from 2 to 6".to_owned(),
+            });
+        }
+    };
+    if !DIMENSIONS.contains(&dimension) {
+        return refuse(format!("holds a shape of {dimension} dimensions; there are shapes of 2 to 6"));
+    }
+    Ok(dimension)
+}
+
+/// What a name is told that stands for nothing in any dimension.
+fn unknown_name(name: &str) -> String {
+    let known: Vec<&str> = DIMENSIONS.flat_map(regular::names).chain(ALSO).collect();
+    let stars = star::NAMES.iter().map(|(name, _)| *name);
+    let hint = meant(name, known.iter().copied().chain(stars))
+        .map_or(String::new(), |near| format!("; the nearest is \"{near}\""));
+    format!(
+        "\"{name}\" is no regular polytope of any dimension{hint} (known: {}, star polytopes, Schläfli symbols)",
+        known.join(", ")
+    )
+}
+
+/// Names that [`regular::names`] leaves out: second ones, and those of whole families.
+const ALSO: [&str; 4] = ["tesseract", "simplex", "hypercube", "cross-polytope"];
+
 impl ShapeSpec {
     /// The dimension, as far as the shape's own numbers and names tell.
     #[must_use]
@@ -125,7 +196,7 @@ impl ShapeSpec {
             Self::HalfSpace { normal, .. } => Some(normal.len()),
             Self::Polytope(PolytopeSpec::Vertices(vertices)) => vertices.first().map(Vec::len),
             Self::Polytope(PolytopeSpec::Regular { name, .. }) => {
-                let mut known = DIMENSIONS.filter(|&dimension| Regular::from_name(dimension, name).is_ok());
+                let mut known = dimensions_of(name);
                 let first = known.next();
                 first.filter(|_| known.next().is_none())
             }
@@ -138,6 +209,15 @@ impl ShapeSpec {
                 let told = (!part.position.is_empty()).then_some(part.position.len());
                 told.or_else(|| part.shape.dimension())
             }),
+        }
+    }
+
+    /// The name of a regular polytope, be it rounded.
+    fn regular_name(&self) -> Option<&str> {
+        match self {
+            Self::Polytope(PolytopeSpec::Regular { name, .. }) | Self::Star { name, .. } => Some(name),
+            Self::Rounded { shape, .. } => shape.regular_name(),
+            _ => None,
         }
     }
 }

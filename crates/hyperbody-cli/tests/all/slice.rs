@@ -27,6 +27,31 @@ fn a_tesseract_across_its_diagonal_is_an_octahedron() {
 }
 
 #[test]
+fn regular_polytopes_need_no_file() {
+    let out = file("slice/by-name.stl", "");
+    let out = out.to_str().expect("UTF-8");
+    for name in ["tesseract", "{4,3,3}"] {
+        // Circumradius 1: edge 1, and across w a cube.
+        let report = json_of(&["slice", name, "-o", out, "--json"]);
+        assert!((number(&report["volume"]) - 1.0).abs() < 1e-12, "{report}");
+    }
+    let report = json_of(&["inspect", "great icosahedron", "--json"]);
+    assert_eq!(report["faces"], serde_json::json!([12, 30, 20]));
+    let report = json_of(&["inspect", "simplex", "--dimension", "6", "--json"]);
+    assert_eq!(report["faces"], serde_json::json!([7, 21, 35, 35, 21, 7]));
+    for (shape, hint) in [
+        (r#"{"polytope": {"regular": "teseract", "edge": 1}}"#, "tesseract"),
+        (r#"{"star": {"regular": "great icosaedron", "edge": 1}}"#, "great icosahedron"),
+    ] {
+        let shape = file("slice/misspelt.json", shape);
+        let output = hyperbody(&["inspect", shape.to_str().expect("UTF-8")]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(&format!("the nearest is \"{hint}\"")), "{error}");
+    }
+}
+
+#[test]
 fn curved_shapes_and_higher_dimensions_are_cut_too() {
     let shape = file("slice/ball.json", r#"{"ball": {"radius": 2}}"#);
     let shape = shape.to_str().expect("UTF-8");
@@ -121,6 +146,7 @@ fn what_cannot_be_cut_is_refused_with_the_reason() {
     let shape = file("slice/cube4.json", r#"{"box": {"half_extents": [1, 1, 1, 1]}}"#);
     let flat = file("slice/cube3.json", r#"{"box": {"half_extents": [1, 1, 1]}}"#);
     let floor = file("slice/floor.json", r#"{"half_space": {"normal": [0, 1, 0, 0], "offset": 0}}"#);
+    let mesh = file("slice/mesh.stl", "solid mesh");
     let path = |path: &std::path::PathBuf| path.to_str().expect("UTF-8").to_owned();
     let out = path(&file("slice/refused.stl", "old"));
     let cases: &[(&str, &[&str], &str)] = &[
@@ -133,6 +159,9 @@ fn what_cannot_be_cut_is_refused_with_the_reason() {
         (&path(&flat), &[], "3 dimensions"),
         (&path(&floor), &[], "half-space has no end"),
         ("nowhere.off", &[], "nowhere.off"),
+        ("tetrahedron", &[], "sections in 3D are those of 4 to 6"),
+        ("simplex", &[], "does not tell its dimension"),
+        (&path(&mesh), &[], "read from .off files"),
     ];
     for (shape, more, reason) in cases {
         let output = hyperbody(&[&["slice", shape, "-o", &out], *more].concat());

@@ -27,7 +27,7 @@ fn channel_3d() -> String {
 }
 
 /// The profile times a square: cells are the profile times the square's sides, and the profile's sides times the square.
-fn channel_4d() -> String {
+pub(crate) fn channel_4d() -> String {
     let square = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
     let vertex = |u: usize, k: usize| 4 * (u % 8) + k % 4;
     let mut text = String::from("4OFF\n32 44 64 12\n");
