@@ -13,6 +13,9 @@ pub(crate) struct TestArguments {
     /// Only format, lints, the tests in debug and the tour: for the minutes between two edits
     #[arg(long)]
     quick: bool,
+    /// Begins with the stage whose name starts like this, such as "pictures": to go on after one that failed
+    #[arg(long, value_name = "STAGE")]
+    from: Option<String>,
 }
 
 /// One stage: what it is called, and what it does.
@@ -46,9 +49,16 @@ const STAGES: [Stage; 11] = [
 
 pub(crate) fn run(arguments: &TestArguments) -> Outcome {
     let stages: Vec<&Stage> = STAGES.iter().filter(|stage| stage.quick || !arguments.quick).collect();
+    let first = match &arguments.from {
+        None => 0,
+        Some(from) => stages.iter().position(|stage| stage.name.starts_with(from.as_str())).ok_or_else(|| {
+            let names: Vec<&str> = stages.iter().map(|stage| stage.name).collect();
+            format!("no stage is called {from}; there are {}", names.join("; "))
+        })?,
+    };
     let start = Instant::now();
     let mut skipped = Vec::new();
-    for (position, stage) in stages.iter().enumerate() {
+    for (position, stage) in stages.iter().enumerate().skip(first) {
         println!("==> [{}/{}] {}", position + 1, stages.len(), stage.name);
         if let Some(component) = stage.component
             && !component_is_there(component)?
@@ -63,9 +73,13 @@ pub(crate) fn run(arguments: &TestArguments) -> Outcome {
     }
     let seconds = start.elapsed().as_secs_f64();
     if skipped.is_empty() {
-        println!("==> all {} stages passed, {seconds:.0} s", stages.len());
+        println!("==> all {} stages passed, {seconds:.0} s", stages.len() - first);
     } else {
-        println!("==> {} stages passed, {seconds:.0} s; skipped: {}", stages.len() - skipped.len(), skipped.join(", "));
+        println!(
+            "==> {} stages passed, {seconds:.0} s; skipped: {}",
+            stages.len() - first - skipped.len(),
+            skipped.join(", ")
+        );
     }
     Ok(())
 }
