@@ -63,7 +63,7 @@ test("the page weighs at most 1.5 MB compressed", (t) => {
   const files = readdirSync(dist, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
   const weigh = (entry) => {
     const bytes = readFileSync(join(entry.parentPath ?? entry.path, entry.name));
-    return /\.(webp|png|jpg)$/.test(entry.name) ? bytes.length : brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 24 } }).length;
+    return /\.(avif|webp|png|jpg)$/.test(entry.name) ? bytes.length : brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 24 } }).length;
   };
   const total = files.reduce((sum, entry) => sum + weigh(entry), 0);
   t.diagnostic(`the page weighs ${(total / 1e6).toFixed(3)} MB compressed`);

@@ -47,5 +47,5 @@ function groupOf(scene: BuiltIn): string {
 
 /** Where the picture of a scene lies, from the page's folder. */
 export function pictureOf(name: string): string {
-  return `./gallery/${name}.webp`;
+  return `./gallery/${name}.avif`;
 }
