@@ -6,6 +6,7 @@
 use hyperbody_math::{Bivector, Rotation, Vector};
 
 use crate::body::Body;
+use crate::pairs::Pair;
 use crate::solver::bodies::{Sizes, SolverBody};
 use crate::vetting::limit_speed;
 use crate::{BodyKind, Tuning, World};
@@ -17,6 +18,7 @@ impl<const N: usize> World<N> {
         let h = self.dt / n;
         let span = Span { dt: self.dt, dt_sq: h * h * n * (n + 1.0) * 0.5 };
         let mut gyros = self.solver.gyros.iter().peekable();
+        let sound = self.quarantined.len();
         for (row, solved) in self.solver.bodies.iter().enumerate() {
             let Some(body) = self.bodies.at_mut(solved.slot) else { continue };
             let before = (body.centre, body.rotation);
@@ -47,6 +49,11 @@ impl<const N: usize> World<N> {
                     self.quarantined.push(handle);
                 }
             }
+        }
+        // Their impulses are no numbers either.
+        for body in &self.quarantined[sound..] {
+            let own = |pair: &&mut Pair<N>| pair.body_a == body.index || pair.body_b == body.index;
+            self.pairs.iter_mut().filter(own).for_each(Pair::forget);
         }
         for body in self.bodies.values_mut().filter(|body| body.kind == BodyKind::Kinematic && !body.quarantined) {
             if let Some((centre, rotation)) = body.led_to.take() {

@@ -262,6 +262,10 @@ impl<const N: usize> Pairs<N> {
         self.slots.iter().flatten()
     }
 
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Pair<N>> {
+        self.slots.iter_mut().flatten()
+    }
+
     /// The pair of two colliders, a < b.
     pub(crate) fn of(&self, collider_a: u32, collider_b: u32) -> Option<&Pair<N>> {
         self.get(*self.slot_of.get(&(collider_a, collider_b))?)

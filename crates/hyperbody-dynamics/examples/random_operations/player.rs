@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use hyperbody_dynamics::{
-    BodyDef, BodyHandle, BodyKind, Freedom, Groups, JointDef, JointHandle, Rewind, Snapshot, World, WorldDef,
-    WorldError, WorldErrorKind,
+    BodyDef, BodyHandle, BodyKind, Groups, JointDef, JointHandle, Rewind, Snapshot, World, WorldDef, WorldError,
+    WorldErrorKind,
 };
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Pose, Vector};
 
 use super::dice::Dice;
+use super::joints::Ends;
 use super::tally::{OPERATIONS, Operation, Tally};
 
 /// Most bodies at once.
@@ -167,23 +168,11 @@ impl<const N: usize> Player<N> {
         })
     }
 
+    /// Some joint of these bodies as they lie.
     fn joint_def(&mut self, a: Option<BodyHandle>, b: BodyHandle) -> JointDef<N> {
-        let dice = &mut self.dice;
-        let frames = (Pose::from_translation(dice.vector(0.3)), Pose::from_translation(dice.vector(0.3)));
-        let (i, j) = (0, 1 + dice.below(N - 1));
-        let def = match dice.below(9) {
-            0 => JointDef::ball(a, b, frames.0.translation, frames.1.translation),
-            1 => JointDef::hinge(a, b, frames.0, frames.1, (i, j)).angle_limits(i, j, -0.5, 0.7),
-            2 => JointDef::hinge(a, b, frames.0, frames.1, (i, j)).motor(i, j, 3.0, 5.0),
-            3 => JointDef::slider(a, b, frames.0, frames.1, i)
-                .axis(i, Freedom { limits: Some((-0.2, 0.4)), ..Freedom::FREE }),
-            4 => JointDef::axle(a, b, frames.0, frames.1, dice.below(N)).break_at(200.0, 50.0),
-            5 => JointDef::rope(a, b, frames.0.translation, frames.1.translation, 1.0),
-            6 => JointDef::distance(a, b, frames.0.translation, frames.1.translation, 0.7),
-            7 if a.is_none() => JointDef::mouse(b, frames.1.translation, dice.vector::<N>(2.0), 50.0),
-            _ => JointDef::weld(a, b, frames.0, frames.1).softness(3.0, 0.5),
-        };
-        def.collide(dice.below(3) == 0)
+        let pose = |body| self.world.body(body).expect("alive").pose();
+        let poses = [a.map_or(Pose::IDENTITY, pose), pose(b)];
+        self.dice.joint(Ends { a, b, poses })
     }
 
     fn add_joint(&mut self) -> bool {
@@ -234,16 +223,21 @@ impl<const N: usize> Player<N> {
 
     fn push(&mut self) -> bool {
         let Some(handle) = self.any_body() else { return false };
-        let (at, push, choice) = (self.dice.pose::<N>().translation, self.dice.vector::<N>(1.0), self.dice.below(7));
+        let (push, choice) = (self.dice.vector::<N>(1.0), self.dice.below(7));
         let spin = Bivector::from_fn(|_, _| self.dice.between(-2.0, 2.0));
-        let kind = self.kind(handle);
+        let (kind, mass, centre) = {
+            let body = self.world.body(handle).expect("alive");
+            (body.kind(), body.mass(), body.position())
+        };
+        // By mass, or the light ones would be off to where there are no numbers.
+        let at = centre + self.dice.vector::<N>(0.3);
         let mut body = self.world.body_mut(handle).expect("alive");
         let (result, good) = match choice {
             0 => (body.set_velocity(push * 3.0), kind != BodyKind::Static),
             1 => (body.set_angular_velocity(spin), kind != BodyKind::Static),
-            2 => (body.apply_impulse_at(push, at), kind == BodyKind::Dynamic),
-            3 => (body.apply_force(push * 100.0), kind == BodyKind::Dynamic),
-            4 => (body.set_steady_force(push, spin), kind == BodyKind::Dynamic),
+            2 => (body.apply_impulse_at(push * mass, at), kind == BodyKind::Dynamic),
+            3 => (body.apply_force(push * (100.0 * mass)), kind == BodyKind::Dynamic),
+            4 => (body.set_steady_force(push * (5.0 * mass), spin * (0.1 * mass)), kind == BodyKind::Dynamic),
             5 => (body.set_surface_velocity(push), true),
             _ => (body.set_gravity_scale(push[0]), true),
         };
@@ -270,6 +264,8 @@ impl<const N: usize> Player<N> {
     fn change_shape(&mut self) -> bool {
         let Some(handle) = self.any_body() else { return false };
         let shape = self.dice.shape();
+        // What pushes a heavy body would throw one that is ten thousand times lighter.
+        self.world.body_mut(handle).expect("alive").clear_forces();
         self.world.set_shape(handle, shape).expect("any kind of body can have it");
         true
     }
@@ -282,6 +278,7 @@ impl<const N: usize> Player<N> {
         def.sensor = self.dice.below(6) == 0;
         def.material.friction = self.dice.between(0.0, 1.0);
         let endless = matches!(def.shape, Shape::HalfSpace { .. }) && def.kind != BodyKind::Static;
+        self.world.body_mut(handle).expect("alive").clear_forces();
         let idle = def.kind != BodyKind::Dynamic && self.ties(handle).any(|(_, other)| !self.moves(other));
         let result = self.world.set_body(handle, def);
         expect(result.as_ref(), !endless && !idle, "a floor that moves, or a joint with nothing to do");

@@ -45,6 +45,8 @@ pub(crate) struct Tally {
     pub(crate) most: [usize; 3],
     /// Bodies that ended in quarantine.
     pub(crate) quarantined: u64,
+    /// Seeds whose world was not what it had to be.
+    pub(crate) panics: Vec<usize>,
 }
 
 impl Tally {
@@ -61,11 +63,16 @@ impl Tally {
         self.stale_refused += other.stale_refused;
         self.pairs_leaked += other.pairs_leaked;
         self.quarantined += other.quarantined;
+        self.panics.extend(&other.panics);
         self.most = std::array::from_fn(|k| self.most[k].max(other.most[k]));
     }
 
-    /// Whether something leaked, or a handle of what is gone was taken.
+    /// Whether nothing leaked, panicked or went to infinity, and no handle of what is gone was taken.
     pub(crate) fn is_clean(&self) -> bool {
-        self.pairs_leaked == 0 && self.stale_tried == self.stale_refused && self.stale_tried > 0
+        self.panics.is_empty()
+            && self.quarantined == 0
+            && self.pairs_leaked == 0
+            && self.stale_tried == self.stale_refused
+            && self.stale_tried > 0
     }
 }

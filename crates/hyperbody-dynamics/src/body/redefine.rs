@@ -113,6 +113,8 @@ impl<const N: usize> World<N> {
         for joint in joints {
             if let Some(joint) = self.joints.at_mut(joint) {
                 joint.put_centre_of(slot, centre);
+                // What held another body would throw this one.
+                joint.impulses.fill([0.0; 2]);
             }
         }
         self.quarantined.retain(|&other| other != handle);

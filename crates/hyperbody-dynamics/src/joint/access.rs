@@ -199,9 +199,7 @@ impl<const N: usize> World<N> {
         let centre = |slot| self.bodies.at(slot).map_or(Vector::ZERO, |body| body.centre_in_body);
         let (a, b) = (joint.body_a, joint.body_b);
         let mut new = Joint::new(def, groups, (a, centre(a)), (b, centre(b)));
-        if new.rows.len() == joint.rows.len() {
-            new.impulses.clone_from(&joint.impulses);
-        }
+        new.go_on_from(joint);
         let collides = (joint.def.collide, new.def.collide);
         if let Some(joint) = self.joints.get_mut(handle) {
             *joint = new;

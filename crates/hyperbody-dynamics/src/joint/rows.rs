@@ -1,5 +1,7 @@
 //! A joint as the world keeps it: its definition taken apart into scalar rows.
 
+use std::mem::discriminant;
+
 use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
 use super::{JointDef, Motor, Spring};
@@ -86,6 +88,21 @@ impl<const N: usize> Joint<N> {
             step_impulse: Vector::ZERO,
             step_twist: Bivector::ZERO,
             def,
+        }
+    }
+
+    /// Starts from the impulses of what it was, where a row does the same as one did.
+    pub(crate) fn go_on_from(&mut self, old: &Self) {
+        if self.def.coupling != old.def.coupling || self.groups != old.groups {
+            return;
+        }
+        for (row, impulses) in self.rows.iter().zip(&mut self.impulses) {
+            let same = |other: &RowSpec| {
+                row.coordinate == other.coordinate && discriminant(&row.role) == discriminant(&other.role)
+            };
+            if let Some(index) = old.rows.iter().position(same) {
+                *impulses = old.impulses[index];
+            }
         }
     }
 

@@ -249,7 +249,9 @@ fn wheels_at_one_place_stay_numbers() {
 /// A gear whose second wheel is held fast breaks at its strength, and not before.
 #[test]
 fn teeth_break() {
-    for (strength, breaks) in [(1.0, true), (100.0, false)] {
+    let bears = f64::INFINITY;
+    for (force, torque, breaks) in [(1.0, bears, true), (100.0, bears, false), (bears, 3.0, true), (bears, 5.0, false)]
+    {
         let mut world = world::<4>(Vector::ZERO);
         let (i, j) = plane::<4>();
         let (a, b) = (wheel(&mut world, Vector::ZERO), wheel(&mut world, Vector::unit(i)));
@@ -259,13 +261,16 @@ fn teeth_break() {
         let place = Pose::from_translation(Vector::unit(i));
         world.add_joint(JointDef::weld(None, b, place, Pose::IDENTITY)).unwrap();
         let gear = JointDef::gear(a, b, Pose::IDENTITY, Pose::IDENTITY, (i, j), (10, 10));
-        let gear = world.add_joint(gear.break_at(strength, f64::INFINITY)).unwrap();
+        let gear = world.add_joint(gear.break_at(force, torque)).unwrap();
         for _ in 0..60 {
             world.step();
         }
-        assert_eq!(world.joint(gear).is_none(), breaks, "4 N·m on half a metre are 8 N, and it bears {strength}");
+        let broken = world.joint(gear).is_none();
+        assert_eq!(broken, breaks, "4 N·m on half a metre are 8 N, and it bears {force} N and {torque} N·m");
         if let Some(gear) = world.joint(gear) {
             assert_close("force", gear.force().norm(), 8.0, 0.01);
+            // What the weld keeps from turning: the tooth pushes at half a metre from the second wheel's anchor.
+            assert_close("torque", gear.torque().norm(), 4.0, 0.01);
         }
     }
 }

@@ -3,13 +3,14 @@
 //! of them only that is asked that every number stays one.
 
 use crate::common::{ball, cuboid, down, in_all_dimensions, run, world};
-use hyperbody_dynamics::{BodyDef, BodyHandle, Freedom, JointDef, World};
-use hyperbody_math::{Pose, Rotation, Vector};
+use hyperbody_dynamics::{BodyDef, BodyHandle, Freedom, Groups, JointDef, World};
+use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
 in_all_dimensions! {
     contradictions_with_the_world_come_to_rest: with_the_world;
     contradictions_between_free_bodies_keep_their_momenta: between_bodies;
     twice_the_same_joint_holds_as_one: twice_the_same;
+    joints_far_from_their_places_draw_bodies_in: far_off;
     loops_with_more_rows_than_motions_stay_closed: closed_loop;
 }
 
@@ -55,6 +56,21 @@ fn contradictions<const N: usize>(body: BodyHandle, by: f64) -> Vec<(&'static st
             vec![
                 JointDef::distance(None, body, Vector::unit(0) * -1.0, Vector::ZERO, 1.0),
                 JointDef::distance(None, body, Vector::unit(0) * (1.0 + by), Vector::ZERO, 1.0),
+            ],
+        ),
+        (
+            "rods in the shape of ropes, both too short",
+            vec![
+                JointDef::rope(None, body, Vector::unit(0) * -1.0, Vector::ZERO, 1.0),
+                JointDef::rope(None, body, Vector::unit(0) * (1.0 + by), Vector::ZERO, 1.0),
+            ],
+        ),
+        (
+            "limits that leave no place",
+            vec![
+                JointDef::slider(None, body, here, here, 0)
+                    .axis(0, Freedom { limits: Some((-0.5, 0.0)), ..Freedom::FREE }),
+                JointDef::slider(None, body, here, here, 0).axis(0, limited),
             ],
         ),
         (
@@ -105,6 +121,35 @@ fn with_the_world<const N: usize>() {
             assert!(left < 2e-3, "{N}D, {what}: {left} m/s or rad/s are left");
             let off = now.position().norm();
             assert!(off < by + 0.01, "{N}D, {what}: ends {off} m away");
+        }
+    }
+}
+
+/// A body 2 m from where its joint wants it, turned by up to half a turn in all planes: it comes, and is not thrown.
+fn far_off<const N: usize>() {
+    let within = Freedom { limits: Some((-0.2, 0.2)), ..Freedom::FREE };
+    for angle in [1.0, 3.0] {
+        let turn = Bivector::from_fn(|i, j| angle * (0.6 + 0.1 * i as f64 - 0.13 * j as f64));
+        let frame = Pose::new(Rotation::exp(&turn), Vector::unit(0) * 2.0);
+        for case in 0..5 {
+            let mut world = world::<N>(Vector::ZERO);
+            let body = world.add_body(bar()).unwrap();
+            let post = world.add_body(BodyDef::fixed(ball(0.1)).groups(Groups::NONE)).unwrap();
+            let here = Pose::IDENTITY;
+            let (what, def) = match case {
+                0 => ("weld", JointDef::weld(body, post, frame, here)),
+                1 => ("slider within limits", JointDef::slider(body, post, frame, here, 0).axis(0, within)),
+                2 => ("hinge", JointDef::hinge(body, post, frame, here, (0, 1))),
+                3 => ("hinge within limits", JointDef::hinge(body, post, frame, here, (0, 1)).plane(0, 1, within)),
+                _ => ("rope", JointDef::rope(body, post, frame.translation, Vector::ZERO, 0.5)),
+            };
+            let joint = world.add_joint(def).unwrap();
+            let what = format!("{what}, off by {angle} rad");
+            let speed = fastest(&mut world, 8.0, &what);
+            assert!(speed < 50.0, "{N}D, {what}: {speed} m/s or rad/s");
+            let def = world.joint(joint).unwrap().def();
+            let anchor = world.body(body).unwrap().pose().transform_point(def.frame_a.translation);
+            assert!(anchor.norm() < 0.51, "{N}D, {what}: ends {} m away", anchor.norm());
         }
     }
 }

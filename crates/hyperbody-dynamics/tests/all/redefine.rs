@@ -143,3 +143,20 @@ fn kinds<const N: usize>() {
     let def = BodyDef::new(ball(0.1));
     assert_eq!(world.set_body(lamp, def).unwrap_err().kind(), WorldErrorKind::StaleHandle);
 }
+
+/// A ton on a rope becomes a gram: what held the one does not throw the other.
+#[test]
+fn what_hung_heavily_hangs_on_when_light() {
+    let mut world = World::<4>::new(WorldDef::default()).unwrap();
+    let body = world.add_body(BodyDef::new(cuboid(Vector::splat(0.5))).mass(1000.0)).unwrap();
+    world.add_joint(JointDef::rope(None, body, Vector::unit(1) * 2.0, Vector::ZERO, 2.0)).unwrap();
+    (0..60).for_each(|_| world.step());
+    let def = world.body(body).unwrap().def().mass(1e-3);
+    world.set_body(body, def).unwrap();
+    let mut fastest: f64 = 0.0;
+    for _ in 0..60 {
+        world.step();
+        fastest = fastest.max(world.body(body).unwrap().velocity().norm());
+    }
+    assert!(fastest < 0.1, "it was thrown at {fastest} m/s");
+}

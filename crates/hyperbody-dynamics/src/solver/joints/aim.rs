@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::solve::drawn_back;
 use super::{JointRows, Pass, Row};
 use crate::joint::{Coordinate, Role};
 use crate::solver::softness::Softness;
@@ -13,18 +14,20 @@ pub(super) const PUSH_BACK: f64 = 4.0;
 /// their strength and not at infinity.
 const MOTOR_COMPLIANCE: f64 = 1e-4;
 
-/// The same of limits: less than motors, so that no motor drives through one, however strong.
-const LIMIT_COMPLIANCE: f64 = 1e-6;
+/// The same of limits of what a motor drives: less than motors, so that none drives through its own limit, however strong.
+const LIMIT_COMPLIANCE: f64 = 1e-5;
 
 impl<const N: usize> Row<N> {
     /// What the row wants its rate to change by, negated; nothing in passes that are not its own. `rate` counts all impulses so far.
     pub(super) fn error(&self, rate: f64, pass: Pass, h: f64, joint: &JointRows<N>) -> Option<f64> {
-        let (held, impulse) = (&joint.soft, self.impulse + self.settle);
+        let impulse = self.impulse + self.settle;
         match (self.spec.role, pass) {
             (Role::Held(_), Pass::Settle) => (!joint.is_soft).then_some(rate),
             (Role::Held(_), Pass::Move) => Some(rate + self.curve + self.drawn),
-            (Role::AtLeast(least), _) => Some(self.towards_limit(rate, self.value - least, 1.0, pass, h, held)),
-            (Role::AtMost(greatest), _) => Some(-self.towards_limit(-rate, greatest - self.value, -1.0, pass, h, held)),
+            (Role::AtLeast(least), _) => Some(self.towards_limit(rate, self.value - least, 1.0, pass, h, joint)),
+            (Role::AtMost(greatest), _) => {
+                Some(-self.towards_limit(-rate, greatest - self.value, -1.0, pass, h, joint))
+            }
             (Role::Driven(motor), _) => Some(rate - motor.speed + self.compliance * impulse),
             (Role::Sprung(_), Pass::Settle) => None,
             (Role::Sprung(spring), Pass::Move) => {
@@ -52,14 +55,18 @@ impl<const N: usize> Row<N> {
         (impulse > least || error < 0.0) && (impulse < most || error > 0.0)
     }
 
-    /// The error at a limit, counted inwards: `room` is the distance to it, closing at −`rate`.
-    fn towards_limit(&self, rate: f64, room: f64, sense: f64, pass: Pass, h: f64, held: &Softness) -> f64 {
+    /// The error at a limit, counted inwards: `room` is the distance to it, closing at −`rate`. Beyond it the row is a spring as
+    /// held rows are, which gives way: between two limits that contradict each other neither presses without end.
+    fn towards_limit(&self, rate: f64, room: f64, sense: f64, pass: Pass, h: f64, joint: &JointRows<N>) -> f64 {
         match pass {
             Pass::Settle => rate + (room / h).max(0.0),
             Pass::Move if room > 0.0 => rate + sense * self.curve + room / h,
             Pass::Move => {
-                let back = (held.bias_rate * room).max(-PUSH_BACK);
-                rate + sense * self.curve + back
+                let beyond = drawn_back(-room, self.spec.coordinate, self.value.max(self.value - sense * room));
+                let given = self.compliance * sense * (self.impulse + self.settle);
+                // What it gives way comes on top, or a great load would drive it in without end.
+                let back = (joint.rigid.bias_rate * beyond).min(PUSH_BACK + given.abs());
+                rate + sense * self.curve - back + given
             }
         }
     }
@@ -71,10 +78,12 @@ impl<const N: usize> Row<N> {
     }
 
     /// What the row gives way beside its response: a share of `response`, which of springs is that of the joint with its held rows holding.
-    pub(super) fn compliance(&self, response: f64, held: &Softness, h: f64) -> f64 {
+    /// `driven` tells whether a motor drives the same coordinate.
+    pub(super) fn compliance(&self, response: f64, joint: &JointRows<N>, driven: bool, h: f64) -> f64 {
         match self.spec.role {
-            Role::Held(_) => held.compliance() * response,
-            Role::AtLeast(_) | Role::AtMost(_) => LIMIT_COMPLIANCE * response,
+            Role::Held(_) => joint.soft.compliance() * response,
+            Role::AtLeast(_) | Role::AtMost(_) if driven => LIMIT_COMPLIANCE * response,
+            Role::AtLeast(_) | Role::AtMost(_) => joint.rigid.compliance() * response,
             Role::Driven(_) => MOTOR_COMPLIANCE * response,
             Role::Sprung(spring) => Softness::new(spring.hz, spring.damping_ratio, h).compliance() * response,
         }

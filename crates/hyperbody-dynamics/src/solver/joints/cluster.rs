@@ -7,7 +7,9 @@
 //! The system is K x = y with a block for each pair of joints that share a body (K = J M⁻¹ Jᵀ). The plan depends on who is jointed
 //! to whom alone, and is kept while that stays the same.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::elimination::{Elimination, cost};
 use super::fronts::{Front, Room, drafts};
@@ -70,11 +72,16 @@ pub(super) struct Cluster {
     pub(super) whole: bool,
 }
 
+/// How joints hang together, with bodies counted as they appear: all that an order of elimination follows from.
+type Pattern = Vec<([u32; 2], u32, bool)>;
+
 /// The order of everything.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
     links: Vec<Link>,
     budget: u64,
+    /// Those in use, or that the budget does not allow: when one joint is changed, the orders of the others stay good.
+    eliminations: BTreeMap<Pattern, Option<Arc<Elimination>>>,
     pub(super) clusters: Vec<Cluster>,
     pub(super) nodes: Vec<Node>,
     fronts: Vec<Front>,
@@ -106,19 +113,26 @@ impl Plan {
         if self.links == links && self.budget == budget {
             return;
         }
+        let mut known = std::mem::take(&mut self.eliminations);
+        if self.budget != budget {
+            known.clear();
+        }
         *self = Self { links: links.to_vec(), budget, ..Self::default() };
         let (apart, together): (Vec<Link>, Vec<Link>) = links.iter().partition(|link| link.apart);
         for link in apart {
             self.add_alone(link);
         }
         for component in components(&together, bodies) {
-            let in_a_chain: u64 = component.iter().map(|link| cost(link.rows, link.rows)).sum();
-            let bounded = component.iter().any(|link| link.bounded);
-            let most = if bounded { 0 } else { budget.min(DEAR * in_a_chain) };
-            match Elimination::new(&component, most.max(CHEAP * in_a_chain).max(NOTHING)) {
-                Some(elimination) => self.add(&component, &elimination, true),
+            let pattern = pattern(&component);
+            let elimination = match self.eliminations.get(&pattern) {
+                Some(elimination) => elimination.clone(),
+                None => known.remove(&pattern).unwrap_or_else(|| eliminate(&component, budget)),
+            };
+            match &elimination {
+                Some(elimination) => self.add(&component, elimination, true),
                 None => component.iter().for_each(|link| self.add_alone(*link)),
             }
+            self.eliminations.insert(pattern, elimination);
         }
     }
 
@@ -256,6 +270,23 @@ impl Plan {
             self.fronts[index].couplings = first..len(&self.couplings);
         }
     }
+}
+
+/// An order for links that hang together, unless it would cost too much.
+fn eliminate(component: &[Link], budget: u64) -> Option<Arc<Elimination>> {
+    let in_a_chain: u64 = component.iter().map(|link| cost(link.rows, link.rows)).sum();
+    let bounded = component.iter().any(|link| link.bounded);
+    let most = if bounded { 0 } else { budget.min(DEAR * in_a_chain) };
+    Elimination::new(component, most.max(CHEAP * in_a_chain).max(NOTHING)).map(Arc::new)
+}
+
+fn pattern(component: &[Link]) -> Pattern {
+    let mut seen = BTreeMap::from([(0, 0)]);
+    let mut count = |body: u32| {
+        let next = number(seen.len());
+        *seen.entry(body).or_insert(next)
+    };
+    component.iter().map(|link| (link.bodies.map(&mut count), link.rows, link.bounded)).collect()
 }
 
 /// Links that hang together through moving bodies, in the order of their first links.

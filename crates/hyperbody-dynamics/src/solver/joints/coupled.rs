@@ -17,6 +17,13 @@ pub(super) struct Mesh<const N: usize> {
     pub(super) twist: Option<Bivector<N>>,
 }
 
+impl<const N: usize> Mesh<N> {
+    /// The torque for each unit of force, m, about a point that is given from the first anchor.
+    pub(super) fn about(&self, point: Vector<N>) -> Bivector<N> {
+        Bivector::wedge(self.point - point, self.direction) + self.twist.unwrap_or(Bivector::ZERO)
+    }
+}
+
 impl<const N: usize> Geometry<N> {
     pub(super) fn mesh(&self, coupling: &Coupling) -> Mesh<N> {
         let of_a = |axis: u8| self.axes.column(usize::from(axis));

@@ -15,6 +15,7 @@ pub(super) fn cost(rows: u32, around: u32) -> u64 {
 }
 
 /// The order of elimination, and who is around each when its turn comes.
+#[derive(Debug)]
 pub(super) struct Elimination {
     /// Links, the first to be eliminated first.
     pub(super) order: Vec<u32>,

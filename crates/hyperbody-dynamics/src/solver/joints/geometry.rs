@@ -117,6 +117,11 @@ impl<const N: usize> Geometry<N> {
         }
     }
 
+    /// How far locked planes are off together, rad.
+    pub(super) fn turned_off(&self) -> f64 {
+        self.error.norm()
+    }
+
     /// A change of a coordinate that is next to what its rate lets expect: angles jump from π to −π, couplings by a tooth or a turn.
     pub(super) fn change_near(&self, expected: f64, coordinate: Coordinate, change: f64) -> f64 {
         let period = match (coordinate, &self.coupling) {

@@ -127,6 +127,8 @@ struct JointRows<const N: usize> {
     own: usize,
     /// Spring of the held rows.
     soft: Softness,
+    /// The same for whatever does not give way by intent: limits, and all of joints that are not soft.
+    rigid: Softness,
     /// Whether that is the spring of a soft joint.
     is_soft: bool,
     /// Whether it is solved together with all joints around it.
@@ -224,8 +226,11 @@ impl<const N: usize> Joints<N> {
     fn spread_stiffness(&mut self, tuning: &Tuning, h: f64) {
         let exact = Softness::uncapped(EXACT_STIFFNESS * tuning.joint_hz, tuning.joint_damping_ratio, h);
         let swept = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
-        for joint in self.joints.iter_mut().filter(|joint| !joint.is_soft) {
-            joint.soft = if joint.exact { exact } else { swept };
+        for joint in &mut self.joints {
+            joint.rigid = if joint.exact { exact } else { swept };
+            if !joint.is_soft {
+                joint.soft = joint.rigid;
+            }
         }
     }
 
@@ -323,6 +328,7 @@ impl<const N: usize> JointRows<N> {
             end: first + joint.rows.len(),
             own,
             soft: def.softness.map_or(Softness::RIGID, |(hz, damping_ratio)| Softness::new(hz, damping_ratio, h)),
+            rigid: Softness::RIGID,
             is_soft: def.softness.is_some(),
             exact: false,
             max_impulse: def.max_force * h,

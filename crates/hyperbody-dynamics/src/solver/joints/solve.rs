@@ -1,7 +1,5 @@
 //! The passes over joints.
 
-use std::f64::consts::TAU;
-
 use hyperbody_math::Bivector;
 
 use super::aim::PUSH_BACK;
@@ -10,7 +8,7 @@ use super::factor::{self, Parts};
 use super::geometry::response;
 use super::place::{Moment, Place};
 use super::{JointRows, Joints, Moving, Row, block};
-use crate::joint::{Coordinate, Coupling, Role};
+use crate::joint::{Coordinate, Role};
 use crate::solver::Real;
 use crate::solver::bodies::{Sizes, SolverBody};
 
@@ -24,6 +22,14 @@ const ROUNDS: usize = 6;
 const LOOKS: usize = 4;
 const FORESEEN: f64 = 1e-4;
 
+/// The part of the last look's miss that the next one may have. Where joints are far from what they hold, looking ahead does not
+/// converge, and would throw the bodies.
+const CLOSER: f64 = 0.5;
+
+/// How far locked planes may be off, rad, for what their coordinates do beyond tangents to be told: the logarithm of a turn has other
+/// derivatives there than those of its levers, and none at π.
+const ASTRAY: f64 = 1.0;
+
 /// Least share of a spring's response that its joint can leave it.
 const LEAST_FREE: f64 = 1e-6;
 
@@ -31,6 +37,11 @@ const LEAST_FREE: f64 = 1e-6;
 /// off; with k = m ω² a pull of k·ΔL lets what hangs between them swing sideways at √(2 k ΔL/(m L)), which is faster than substeps can follow
 /// from an eighth of the length on.
 const MOST_STRETCH: f64 = 0.05;
+
+/// How much of the way beyond its place counts for a rigid row: of rods and ropes no more than a part of their length.
+pub(super) fn drawn_back(beyond: f64, coordinate: Coordinate, length: f64) -> f64 {
+    if coordinate == Coordinate::Length { beyond.min(MOST_STRETCH * length) } else { beyond }
+}
 
 /// Which pass.
 #[derive(Clone, Copy, Debug)]
@@ -121,13 +132,28 @@ impl<const N: usize> Joints<N> {
                 Pass::Settle => count - 1 - index,
             };
             let looks_ahead = matches!(pass, Pass::Move) && self.plan.clusters[index].whole;
-            for _ in 0..LOOKS {
+            let mut before = f64::INFINITY;
+            for look in 1..=LOOKS {
                 let error = self.solve_cluster(index, moving, pass, moment.h);
                 if !looks_ahead || error * moment.h < FORESEEN {
                     break;
                 }
+                if look == LOOKS || error > CLOSER * before {
+                    self.look_nowhere(index);
+                    self.solve_cluster(index, moving, pass, moment.h);
+                    break;
+                }
+                before = error;
                 self.look_further(index, moving, moment);
             }
+        }
+    }
+
+    /// Leaves a cluster to its tangents, as when nothing is known of what lies ahead.
+    fn look_nowhere(&mut self, cluster: usize) {
+        for node in self.plan.nodes_of(&self.plan.clusters[cluster]) {
+            let joint = &self.joints[node.joint as usize];
+            self.rows[joint.first..joint.end].iter_mut().for_each(|row| row.curve = 0.0);
         }
     }
 
@@ -250,9 +276,10 @@ impl<const N: usize> Joints<N> {
     /// Adds the impulses of a substep to those of the step.
     pub(crate) fn add_up(&mut self) {
         for joint in &mut self.joints {
+            let rows = &self.rows[joint.first..joint.end];
             let mut twist = Bivector::ZERO;
             let mut turned = false;
-            for row in &self.rows[joint.first..joint.end] {
+            for row in rows {
                 let impulse = row.impulse + row.settle;
                 joint.step_impulse += row.direction * impulse;
                 if let Coordinate::Turn(i, j) | Coordinate::Angle(i, j) = row.spec.coordinate {
@@ -260,12 +287,9 @@ impl<const N: usize> Joints<N> {
                     twist.set(i, j, twist.get(i, j) + impulse);
                     turned = true;
                 }
-                if let (Coordinate::Coupled, Some((Coupling::Screw { plane: (i, j), lead, .. }, _))) =
-                    (row.spec.coordinate, joint.coupling)
-                {
-                    let (i, j) = (usize::from(i), usize::from(j));
-                    twist += Bivector::plane(i, j, -lead / TAU * impulse);
-                    turned = true;
+                if let (Coordinate::Coupled, Some((coupling, _))) = (row.spec.coordinate, &joint.coupling) {
+                    let geometry = joint.geometry(&self.places[joint.a].now, &self.places[joint.b].now, rows);
+                    joint.step_twist += geometry.mesh(coupling).about(geometry.gap) * impulse;
                 }
             }
             if turned {
@@ -288,7 +312,13 @@ impl<const N: usize> JointRows<N> {
         let (a, b) = (&places[self.a], &places[self.b]);
         let rows = &mut rows[self.first..self.end];
         let ahead = self.geometry(&a.next, &b.next, rows);
+        let turned_off_sq: f64 = rows.iter().filter(|row| row.turns()).map(|row| row.value * row.value).sum();
+        let astray = turned_off_sq > ASTRAY * ASTRAY || ahead.turned_off() > 2.0 * ASTRAY;
         for row in rows {
+            if astray && row.depends_on_turns() {
+                row.curve = 0.0;
+                continue;
+            }
             let (rate, change) = (row.rate(a, b, moving), ahead.value(row.spec.coordinate) - row.value);
             row.curve = ahead.change_near(rate * h, row.spec.coordinate, change) / h - rate;
         }
@@ -307,16 +337,20 @@ impl<const N: usize> JointRows<N> {
         let of_masses = a.inverse_sqrt_mass * a.inverse_sqrt_mass + b.inverse_sqrt_mass * b.inverse_sqrt_mass;
         for index in 0..rows.len() {
             let row = &rows[index];
-            let turns = matches!(row.spec.coordinate, Coordinate::Turn(..));
+            let angle = matches!(row.spec.coordinate, Coordinate::Angle(..));
+            let same = |other: &Row<N>| other.spec.coordinate == row.spec.coordinate;
+            let driven = rows.iter().any(|other| same(other) && matches!(other.spec.role, Role::Driven(_)));
             let response = match row.spec.role {
                 Role::Held(_) if !self.exact => 0.0,
+                Role::AtLeast(_) | Role::AtMost(_) if driven => row.response,
+                Role::Held(_) if row.turns() => row.response_of_own_moments((a, b)),
+                Role::AtLeast(_) | Role::AtMost(_) if angle => self.response_while_held(own, index),
                 // Not by levers, or what hangs on a long arm would give way far too much.
-                Role::Held(_) if !turns => of_masses,
-                Role::Held(_) => row.response_of_own_moments((a, b)),
+                Role::Held(_) | Role::AtLeast(_) | Role::AtMost(_) => of_masses,
                 Role::Sprung(_) => self.response_while_held(own, index),
-                _ => row.response,
+                Role::Driven(_) => row.response,
             };
-            rows[index].compliance = rows[index].compliance(response, &self.soft, h);
+            rows[index].compliance = row.compliance(response, self, driven, h);
         }
     }
 
@@ -350,9 +384,8 @@ impl<const N: usize> JointRows<N> {
     fn back(&self, row: &Row<N>) -> f64 {
         let Role::Held(place) = row.spec.role else { return 0.0 };
         let mut off = row.value - place;
-        if row.spec.coordinate == Coordinate::Length && !self.is_soft {
-            let most = MOST_STRETCH * row.value.max(place);
-            off = off.clamp(-most, most);
+        if !self.is_soft {
+            off = off.signum() * drawn_back(off.abs(), row.spec.coordinate, row.value.max(place));
         }
         self.soft.bias_rate * off
     }
@@ -374,10 +407,9 @@ impl<const N: usize> JointRows<N> {
 
     /// Keeps a soft joint within its strength, whatever the direction.
     fn weaken(&self, rows: &[Row<N>], change: &mut [f64]) {
-        let turns = |row: &Row<N>| matches!(row.spec.coordinate, Coordinate::Turn(..));
         let held = &rows[..self.held - self.first];
         for (turning, limit) in [(false, self.max_impulse), (true, self.max_twist)] {
-            let of_sort = || held.iter().enumerate().filter(move |(_, row)| turns(row) == turning);
+            let of_sort = || held.iter().enumerate().filter(move |(_, row)| row.turns() == turning);
             let size =
                 of_sort().map(|(k, row)| (row.impulse + change[k]) * (row.impulse + change[k])).sum::<f64>().sqrt();
             if size > limit {
@@ -390,6 +422,16 @@ impl<const N: usize> JointRows<N> {
 }
 
 impl<const N: usize> Row<N> {
+    /// Whether it tells how far a locked plane is off.
+    fn turns(&self) -> bool {
+        matches!(self.spec.coordinate, Coordinate::Turn(..))
+    }
+
+    /// Whether its coordinate is defined as long as locked planes are not far off alone.
+    fn depends_on_turns(&self) -> bool {
+        matches!(self.spec.coordinate, Coordinate::Turn(..) | Coordinate::Angle(..) | Coordinate::Coupled)
+    }
+
     /// The response of a turn without the moments that bodies got on top for this step. A joint that gave way less the more they got would
     /// press harder for that, and they would get yet more: two welds that contradict each other drove their body that way to
     /// infinity.
