@@ -1,4 +1,7 @@
-//! How joints keep energy: relative energy drift of pendulums and of a whirling rod, for several step lengths.
+//! How joints keep energy: relative energy drift of pendulums in 60 s, for several step lengths. Ends with status 1 if one loses or
+//! gains more than a hundredth at 240 steps a second.
+
+use std::process::ExitCode;
 
 use hyperbody_dynamics::{BodyDef, JointDef, World, WorldDef};
 use hyperbody_geometry::Shape;
@@ -26,15 +29,20 @@ fn pendulum<const N: usize>(steps_a_second: f64, substeps: u32, extra: f64, push
     ((world.energy().total() - before) / (before - lowest), gap)
 }
 
-fn main() {
+fn main() -> ExitCode {
+    let mut worst: f64 = 0.0;
     for (rate, substeps) in [(60.0, 4), (120.0, 4), (240.0, 1), (240.0, 4), (480.0, 4)] {
         let a = pendulum::<2>(rate, substeps, 0.0, 0.0);
         let b = pendulum::<3>(rate, substeps, 0.05, 0.0);
         let c = pendulum::<3>(rate, substeps, 0.05, 2.0);
         let d = pendulum::<4>(rate, substeps, 0.05, 2.0);
+        if rate == 240.0 && substeps == 4 {
+            worst = [a.0, b.0, c.0, d.0].into_iter().fold(0.0, |worst, drift: f64| worst.max(drift.abs()));
+        }
         println!(
             "{rate} Hz, {substeps} substeps: 2D {:.2e} (gap {:.1e}), 3D {:.2e}, 3D spherical {:.2e} (gap {:.1e}), 4D {:.2e}",
             a.0, a.1, b.0, c.0, c.1, d.0
         );
     }
+    if worst < 0.01 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
