@@ -9,6 +9,15 @@ use hyperbody::math::{Vector, scalar};
 
 use crate::mesh::{Mesh, cross};
 
+/// Where a body is smooth, its triangles are tilted against the directions of their corners by at most this, in spacings.
+const MOST_SPACINGS: f64 = 1.6;
+
+/// Triangles with sides this much longer than usual may bridge a flat part.
+const LONG_SIDES: f64 = 2.5;
+
+/// What a flat part may stand out over its triangle, in parts of the triangle's side: rounding.
+const FLAT_GAP: f64 = 1e-6;
+
 /// A triangulated unit sphere: an icosahedron, each triangle divided into four some times.
 #[derive(Clone, Debug)]
 pub(crate) struct Sphere {
@@ -43,21 +52,31 @@ impl Sphere {
         }
     }
 
-    /// Adds the body with this support function. Triangles that bridge a flat part get its normal.
-    pub(crate) fn add_body(&self, support: impl FnMut(Vector<3>) -> Vector<3>, cell: u16, mesh: &mut Mesh) {
-        let points: Vec<Vector<3>> = self.directions.iter().copied().map(support).collect();
+    /// Adds the body with this support function. Triangles on a flat part or along an edge of the body get their own normal.
+    ///
+    /// Around a flat part many directions go to points of its rim, and triangles of such points may come out turned over. They
+    /// lie upon others of the same part and are left out: the inside of the body must not be seen on its outside.
+    pub(crate) fn add_body(&self, mut support: impl FnMut(Vector<3>) -> Vector<3>, cell: u16, mesh: &mut Mesh) {
+        let points: Vec<Vector<3>> = self.directions.iter().copied().map(&mut support).collect();
+        let middle = points.iter().fold(Vector::ZERO, |sum, &point| sum + point) / points.len() as f64;
         // Of the smaller half of all triangles: those on the roundings, whatever the size of the flats.
         let mut sides: Vec<f64> = self.triangles.iter().map(|triangle| longest_side(&points, triangle)).collect();
         sides.sort_unstable_by(f64::total_cmp);
         let usual = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
+        let least_cosine = 1.0 - 0.5 * (MOST_SPACINGS * self.spacing).powi(2);
         for triangle in &self.triangles {
             let corners = triangle.map(|corner| points[corner as usize]);
             let flat = cross(corners[1] - corners[0], corners[2] - corners[0]);
             let Some(flat) = flat.try_normalize() else { continue };
             let round = triangle.map(|corner| self.directions[corner as usize]);
-            let is_flat = longest_side(&points, triangle) > 2.5 * usual
-                && round.iter().all(|direction| direction.dot(flat) > 1.0 - self.spacing * self.spacing);
-            mesh.triangle(corners, if is_flat { [flat; 3] } else { round }, cell);
+            if flat.dot(corners[0] - middle) <= 0.0 {
+                continue;
+            }
+            let long = longest_side(&points, triangle);
+            let gap = |point: Vector<3>| (point - corners[0]).dot(flat);
+            let mut is_flat = || long > LONG_SIDES * usual && gap(support(flat)) < FLAT_GAP * long;
+            let is_edge = round.iter().any(|direction| direction.dot(flat) < least_cosine);
+            mesh.triangle(corners, if is_edge || is_flat() { [flat; 3] } else { round }, cell);
         }
     }
 }

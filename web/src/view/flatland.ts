@@ -1,7 +1,7 @@
 // Flatland (after Abbott, 1884): a world of three dimensions, the plane that cuts it drawn as a sheet of glass, and beside
 // it what beings in that plane see. The cut is made by the graphics card: seen straight onto the plane, with nothing in
 // front of it drawn, a point lies inside a body exactly where the first surface behind the plane faces away.
-import { Color, DoubleSide, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, OrthographicCamera, PlaneGeometry, Ray, Scene, ShaderMaterial, Vector3, Vector4 } from "three";
+import { BackSide, Color, DoubleSide, EdgesGeometry, EqualDepth, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, OrthographicCamera, PlaneGeometry, Ray, Scene, ShaderMaterial, Vector3, Vector4 } from "three";
 import { homeFrame, type SliceFrame } from "../app/slice-frame";
 import type { Frame } from "../engine/protocol";
 import { COOL } from "./palette";
@@ -14,6 +14,11 @@ const DEPTH = 400;
 const MOST_PLANES = 8;
 /** From where rays onto the plane start, m above it. */
 const ABOVE = 100;
+
+/** The same for both passes: their depths are compared to the last bit. */
+const CUT_VERTEX = /* glsl */ `
+  attribute vec3 color; varying vec3 tint; invariant gl_Position;
+  void main() { tint = color; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
 
 /** Where on the canvas the cut is drawn, in CSS pixels from the top left. */
 export interface Inset {
@@ -29,17 +34,16 @@ export class FlatlandView {
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, DEPTH);
   private readonly scene = new Scene();
   private readonly sheet = new Group();
-  private readonly cut: Mesh;
   private readonly ground: Mesh<PlaneGeometry, ShaderMaterial>;
 
   constructor(private readonly stage: Stage) {
-    this.cut = new Mesh(stage.surfaces.mesh.geometry, cutMaterial());
-    this.cut.frustumCulled = false;
+    const passes = [depthMaterial(), cutMaterial()].map((material) => new Mesh(stage.surfaces.mesh.geometry, material));
+    passes.forEach((pass, order) => Object.assign(pass, { frustumCulled: false, renderOrder: order }));
     this.ground = new Mesh(new PlaneGeometry(2, 2), groundMaterial());
     this.ground.frustumCulled = false;
     this.ground.renderOrder = -1;
     this.scene.background = new Color("#0d1326");
-    this.scene.add(this.cut, this.ground);
+    this.scene.add(...passes, this.ground);
     this.makeSheet();
   }
 
@@ -145,20 +149,27 @@ export class FlatlandView {
   }
 }
 
+/** Of all surfaces the nearest behind the plane is found first, in whatever order they are drawn. */
+function depthMaterial(): ShaderMaterial {
+  return new ShaderMaterial({ vertexShader: CUT_VERTEX, fragmentShader: "void main() {}", side: DoubleSide, colorWrite: false });
+}
+
+/**
+ * Where that one faces away, the plane is within its body; where it faces us, the plane is outside, and what lies behind is
+ * not seen by those who live there. Faces are told by the way around their triangles: normals of round bodies are smooth.
+ */
 function cutMaterial(): ShaderMaterial {
   return new ShaderMaterial({
-    vertexShader: /* glsl */ `
-      attribute vec3 color; varying vec3 tint; varying float facing;
-      void main() { tint = color; facing = (normalMatrix * normal).z; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
+    vertexShader: CUT_VERTEX,
     fragmentShader: /* glsl */ `
-      varying vec3 tint; varying float facing;
+      varying vec3 tint;
       void main() {
-        // Facing us: the plane is outside here, and what lies behind it is not seen by those who live in it.
-        gl_FragColor = facing > 0.0 ? vec4(0.0) : vec4(tint, 1.0);
+        gl_FragColor = vec4(tint, 1.0);
         #include <colorspace_fragment>
       }`,
-    side: DoubleSide,
-    transparent: true,
+    side: BackSide,
+    depthFunc: EqualDepth,
+    depthWrite: false,
   });
 }
 

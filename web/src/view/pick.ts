@@ -23,7 +23,7 @@ export class Picker {
     const { surface } = this;
     if (!surface) return null;
     this.boxes ??= boxesOf(surface);
-    const { positions, normals, ranges } = surface;
+    const { positions, ranges } = surface;
     const [a, b, c, hit, normal] = Array.from({ length: 5 }, () => new Vector3());
     let nearest = Infinity;
     let found: Picked | null = null;
@@ -38,7 +38,8 @@ export class Picker {
         const distance = hit.distanceToSquared(ray.origin);
         if (distance >= nearest) continue;
         nearest = distance;
-        const outward = normal.fromArray(normals, at);
+        // By the corners, which go around it as seen from outside: normals of round bodies are smooth.
+        const outward = normal.crossVectors(b.sub(a), c.sub(a));
         found = { body: ranges[3 * range], point: hit.clone(), fromWithin: outward.dot(ray.direction) > 0 };
       }
     });

@@ -84,6 +84,83 @@ fn round_bodies_are_cut_where_closed_forms_say() {
     }
 }
 
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+
+/// The corners of all triangles that are more than slivers, with their normals and the direction they face, of length 2 areas.
+fn triangles(playground: &mut Playground) -> Vec<([[f64; 3]; 3], [[f64; 3]; 3], [f64; 3])> {
+    playground.draw();
+    let drawn = playground.buffers();
+    let points =
+        |t: &[f32]| -> [[f64; 3]; 3] { std::array::from_fn(|i| std::array::from_fn(|k| f64::from(t[3 * i + k]))) };
+    let pairs = drawn.surface_positions.chunks_exact(9).zip(drawn.surface_normals.chunks_exact(9));
+    let all = pairs.map(|(corners, normals)| {
+        let corners = points(corners);
+        (corners, points(normals), cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))
+    });
+    all.filter(|(_, _, facing)| dot(*facing, *facing) > 1e-10).collect()
+}
+
+#[test]
+fn triangles_of_round_bodies_with_edges_face_outward_as_their_normals_do() {
+    let ball = |axes: &str| json!({ "shape": { "ball": { "radius": 0.4 } }, "axes": axes });
+    let segment = |axes: &str| json!({ "shape": { "box": { "half_extents": [0.75] } }, "axes": axes });
+    let product = |factors: [Value; 2]| json!({ "product": { "factors": factors } });
+    let shapes = [
+        (3, product([ball("xy"), segment("z")])),
+        (4, product([ball("xyz"), segment("w")])),
+        (4, product([ball("xy"), ball("zw")])),
+    ];
+    for (dimension, shape) in shapes {
+        for angle in [0.0, 17.0, 45.0, 71.0, 90.0] {
+            let turns = ["xz", "yz", "zw", "xw"].into_iter().take(if dimension == 4 { 4 } else { 2 });
+            let rotation: Vec<Value> = turns.map(|plane| json!({ "plane": plane, "angle_deg": angle })).collect();
+            let mut playground = with_bodies(dimension, json!([{ "shape": shape, "rotation": rotation }]));
+            let triangles = triangles(&mut playground);
+            assert!(triangles.len() > 100, "{shape} at {angle}°: {} triangles", triangles.len());
+            for (corners, normals, facing) in triangles {
+                // The origin is the middle of the section.
+                let outward = dot(facing, corners[0]);
+                assert!(outward > 0.0, "{shape} at {angle}°: {corners:?} faces inward");
+                let long = dot(facing, facing).sqrt();
+                for normal in normals {
+                    let cosine = dot(normal, facing) / long;
+                    assert!(cosine > 0.85, "{shape} at {angle}°: normal {normal:?} of {corners:?}, cosine {cosine}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_ends_of_a_cylinder_are_flat_and_whole() {
+    let factors = json!([{ "shape": { "ball": { "radius": 0.4 } }, "axes": "xy" },
+        { "shape": { "box": { "half_extents": [0.75] } }, "axes": "z" }]);
+    let mut playground = one_body(3, json!({ "product": { "factors": factors } }));
+    let triangles = triangles(&mut playground);
+    let top: Vec<_> = triangles.iter().filter(|(corners, ..)| corners.iter().all(|c| c[2] > 0.749)).collect();
+    for (corners, normals, _) in &top {
+        assert!(normals.iter().all(|normal| normal[2] > 1.0 - 1e-6), "{corners:?} {normals:?}");
+    }
+    // The rim is a polygon of some dozens of corners.
+    for (share, turn) in (0..60).map(|k| (f64::from(k % 10) / 10.0, 0.7 * f64::from(k))) {
+        let point = [0.39 * share * turn.cos(), 0.39 * share * turn.sin(), 0.75];
+        let within = |corners: &[[f64; 3]; 3]| {
+            (0..3).all(|i| cross(minus(corners[(i + 1) % 3], corners[i]), minus(point, corners[i]))[2] >= -1e-9)
+        };
+        assert!(top.iter().any(|(corners, ..)| within(corners)), "a hole at {point:?}");
+    }
+}
+
 #[test]
 fn a_capsule_askew_agrees_with_the_general_search() {
     // Turned into w, so that its balls shrink along it; the export goes the general way, by support searches.
