@@ -149,33 +149,73 @@ test("two controllers hold two bodies, and each moves its own", async () => {
   await context.close();
 });
 
+/** A place of the room where one stands, in the world. */
+const inRoom = async (page, point) => {
+  const { position, scale } = await page.evaluate(() => window.hyperbody.viewer);
+  return point.map((value, axis) => position[axis] + scale * value);
+};
+
+/** The right hand points from one place of the room at another, and pulls the trigger. */
+async function press(page, from, at) {
+  await aim(page, await inRoom(page, from), await inRoom(page, at));
+  await page.waitForTimeout(300);
+  await pressTrigger(page, "right", 1);
+  await page.waitForTimeout(300);
+  await pressTrigger(page, "right", 0);
+}
+
+/** A place on the panel, from its middle, where the panel is pitched. */
+const turned = (x, y, pitch) => [x, y * Math.cos(pitch), y * Math.sin(pitch)];
+
+/** Where the panel's button of this row and column is while the left hand points straight ahead, in the room. */
+const onWrist = (row, column) => turned(0.1 * (column - 1), 0.064 - 0.0363 * row, -0.7).map((value, axis) => value + [-0.2, 1.3, -0.34][axis]);
+const leftAhead = async (page) => aim(page, await inRoom(page, [-0.2, 1.2, -0.4]), await inRoom(page, [-0.2, 1.2, -1.4]), "left");
+const FROM = [0.2, 1.4, 0];
+
 test("the panel is on the left wrist, for the right hand to press; with one hand alone it hangs beside the viewer", async () => {
   const context = await withHeadset();
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });
   await enter(page);
-  const { position, scale } = await page.evaluate(() => window.hyperbody.viewer);
-  const inRoom = (point) => point.map((value, axis) => position[axis] + scale * value);
-  const press = async (from, at) => {
-    await aim(page, inRoom(from), inRoom(at));
-    await page.waitForTimeout(300);
-    await pressTrigger(page, "right", 1);
-    await page.waitForTimeout(300);
-    await pressTrigger(page, "right", 0);
-  };
-  // The button at the panel's upper left stops time. The left hand points straight ahead.
-  await aim(page, inRoom([-0.2, 1.2, -0.4]), inRoom([-0.2, 1.2, -1.4]), "left");
-  const turned = (x, y, pitch) => [x, y * Math.cos(pitch), y * Math.sin(pitch)];
-  const onWrist = turned(-0.1, 0.064, -0.7).map((value, axis) => value + [-0.2, 1.3, -0.34][axis]);
-  await press([0.2, 1.4, 0], onWrist);
+  // The button at the panel's upper left stops time.
+  await leftAhead(page);
+  await press(page, FROM, onWrist(0, 0));
   await until(page, () => window.hyperbody.frame.paused);
   // Without a left hand, in the room: a turn about y after the one about x.
   await page.evaluate(() => (window.headset.controllers.left.connected = false));
   await page.waitForTimeout(500);
   const [x, y, z] = turned(-0.1, 0.064, -0.2);
   const [c, s] = [Math.cos(0.6), Math.sin(0.6)];
-  await press([0.2, 1.4, 0], [-0.42 + c * x + s * z, 1.25 + y, -0.6 - s * x + c * z]);
+  await press(page, FROM, [-0.42 + c * x + s * z, 1.25 + y, -0.6 - s * x + c * z]);
   await until(page, () => !window.hyperbody.frame.paused);
   assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("the panel has the palette: shapes are added from it until it is closed", async () => {
+  const context = await withHeadset();
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await enter(page);
+  await leftAhead(page);
+  const names = () => page.evaluate(() => window.hyperbody.scene.bodies.map(({ name }) => name));
+  const before = await names();
+  const added = async (row, column) => {
+    const count = (await names()).length;
+    await press(page, FROM, onWrist(row, column));
+    await until(page, (least) => window.hyperbody.scene.bodies.length > least, count);
+    return (await names()).at(-1);
+  };
+  // "Add a body"; then the first and the last shape of four dimensions.
+  await press(page, FROM, onWrist(1, 2));
+  assert.match(await added(0, 1), /tesseract/);
+  assert.match(await added(4, 0), /spherinder/);
+  assert.equal((await names()).length, before.length + 2);
+  // Below the last shape there is nothing to press; "Close" brings the usual buttons back, of which this one stops time.
+  await press(page, FROM, onWrist(5, 2));
+  await press(page, FROM, onWrist(0, 0));
+  assert.equal(await page.evaluate(() => window.hyperbody.frame.paused), false);
+  await press(page, FROM, onWrist(0, 0));
+  await until(page, () => window.hyperbody.frame.paused);
+  assert.deepEqual([(await names()).length, errors], [before.length + 2, []]);
   await context.close();
 });
 

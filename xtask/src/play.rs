@@ -21,7 +21,7 @@ pub(crate) struct PlayArguments {
     /// Builds everything and starts nothing
     #[arg(long, conflicts_with = "engine_only")]
     build_only: bool,
-    /// Compares the state hashes of all built-in scenes between the browser's engine and the native program
+    /// Compares the state hashes of all scenes of the gallery between the browser's engine and the native program
     #[arg(long, conflicts_with_all = ["engine_only", "build_only"])]
     check_hashes: bool,
     /// What `hyperbody play` takes: SCENE, --port, --host, --no-open, --export DIR; see `hyperbody help play`

@@ -7,7 +7,7 @@ import type { SliceFrame } from "./slice-frame";
 
 /** Slices nearer to each other than this are the same, m and rad. */
 const SAME_SLICE = 1e-6;
-/** The camera goes with a new scene for so long, s; what the picture has to hold grows at once and shrinks at this rate, 1/s. */
+/** The camera goes with a new scene for so long, s of its own time, which a slow machine stretches; what the picture has to hold grows at once and shrinks at this rate, 1/s. */
 const SETTLING_SECONDS = 6;
 const SHRINK_RATE = 1;
 /** What makes the picture larger than so many times what it was at first, is let go where it is farther off than this share of it. */
@@ -23,8 +23,8 @@ interface Slicing {
 export class FirstLook {
   /** A new scene is not drawn before its first frame has said where to look. */
   private opening: "slice" | "camera" | null = null;
-  /** Seconds for which the camera still goes with the scene. */
-  private left = 0;
+  /** Until which time of the scene the camera still goes with it. */
+  private until = -Infinity;
   /** Of what was seen at first, m. */
   private size = 0;
   private readonly seen = new Box3();
@@ -37,13 +37,13 @@ export class FirstLook {
   /** A new scene: its next frame is its first. */
   begin(): void {
     this.opening = "slice";
-    this.left = 0;
+    this.until = -Infinity;
   }
 
   /** The camera stays where it is. */
   stay(): void {
-    if (this.left > 0) this.stage.orbit.halt();
-    this.left = 0;
+    if (this.until > -Infinity) this.stage.orbit.halt();
+    this.until = -Infinity;
   }
 
   /** Sends the camera to where all that the slice shows is seen. */
@@ -72,14 +72,14 @@ export class FirstLook {
     this.seen.copy(box);
     this.size = box.getSize(new Vector3()).length();
     this.limit.copy(box).expandByScalar(LET_GO * this.size);
-    this.left = SETTLING_SECONDS;
+    this.until = frame.time + SETTLING_SECONDS;
     return true;
   }
 
   /** Once a picture: goes with what falls, swings and comes to rest. */
   settle(seconds: number, frame: Frame, bodies: readonly BodyDescription[]): void {
-    if (this.left <= 0) return;
-    this.left -= seconds;
+    if (frame.time > this.until) this.until = -Infinity;
+    if (this.until === -Infinity) return;
     const now = sight(frame, bodies);
     if (!now) return;
     // What rolls away together is followed; of what flies apart, what stays.

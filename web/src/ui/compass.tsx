@@ -20,7 +20,8 @@ export function Compass() {
   const { frame } = playground.slice;
   const dimension = frame.rows.length;
   if (dimension === frame.shown) return null;
-  const planes = Array.from({ length: frame.shown }, (_, i) => Array.from({ length: dimension - frame.shown }, (_, j) => [i, j] as const)).flat();
+  // A row for each off direction.
+  const planes = Array.from({ length: dimension - frame.shown }, (_, j) => Array.from({ length: frame.shown }, (_, i) => [i, j] as const)).flat();
   return (
     <section class="compass glass" aria-label={t().slice}>
       <LiveCanvas class="gimbal" role="img" aria-label={t().compass} title={t().compass} draw={(context, width, height) => paint(context, width, height, playground)} />

@@ -21,23 +21,29 @@ interface Button {
   label: () => string;
   pressed: () => boolean;
   act: () => void;
+  /** Path of a sign on a 24 × 24 grid, before the label. */
+  icon?: string;
 }
+
+/** Its size on the canvas, in parts of its grid. */
+const ICON_SCALE = 1.9;
 
 export class WristPanel {
   readonly mesh: Mesh<PlaneGeometry, MeshBasicMaterial>;
   private readonly canvas = document.createElement("canvas");
   private readonly texture: CanvasTexture;
-  private readonly buttons: readonly Button[];
+  private readonly usual: readonly Button[];
+  /** Instead of the usual buttons there are shapes to add. */
+  private adding = false;
   private pointed = -1;
   private drawn = "";
-  private added = 0;
 
   constructor(private readonly playground: Playground) {
     Object.assign(this.canvas, PIXELS);
     this.texture = new CanvasTexture(this.canvas);
     this.texture.colorSpace = SRGBColorSpace;
     this.mesh = new Mesh(new PlaneGeometry(WIDTH, HEIGHT), new MeshBasicMaterial({ map: this.texture, transparent: true }));
-    this.buttons = this.makeButtons();
+    this.usual = this.makeButtons();
   }
 
   /** Above the back of the left hand, tilted towards the face; or, where only one hand is there, beside the viewer, in its reach. */
@@ -46,6 +52,10 @@ export class WristPanel {
     else this.mesh.position.set(-0.42, 1.25, -0.6);
     this.mesh.rotation.set(wrist ? -0.7 : -0.2, wrist ? 0 : 0.6, 0);
     (wrist ?? rig).add(this.mesh);
+  }
+
+  private get buttons(): readonly Button[] {
+    return this.adding ? this.palette() : this.usual;
   }
 
   private makeButtons(): Button[] {
@@ -61,7 +71,7 @@ export class WristPanel {
       { label: () => words().back, pressed: never, act: () => this.goBack() },
       { label: () => words().undo, pressed: never, act: () => void playground.undo() },
       { label: () => words().reset, pressed: never, act: () => playground.reset() },
-      { label: () => words().add, pressed: never, act: () => this.addNext() },
+      { label: () => words().add, pressed: never, act: () => (this.adding = true) },
       { label: () => words().goThere, pressed: never, act: selected((body) => playground.goTo(body)) },
       { label: () => words().freeze, pressed: frozen, act: selected((body) => playground.freeze(body, !frozen())) },
       { label: () => words().remove, pressed: never, act: selected((body) => playground.remove(body)) },
@@ -92,18 +102,19 @@ export class WristPanel {
     if (history) this.playground.scrub(Math.min(history.seconds, history.secondsBack + BACK_SECONDS));
   }
 
-  /** One shape of the palette after the other. */
-  private addNext(): void {
-    const shapes = shapesFor(this.playground.scene.value?.dimension ?? 4);
-    const { name, shape } = shapes[this.added % shapes.length];
-    this.added += 1;
-    void this.playground.spawn(shape, name);
+  /** The shapes that the page has beside the picture. It stays until it is closed: who builds adds more than one. */
+  private palette(): Button[] {
+    const { playground } = this;
+    const shapes = shapesFor(playground.scene.value?.dimension ?? 4).map(({ name, icon, shape }): Button => ({
+      label: () => t().shape[name], pressed: () => false, act: () => void playground.spawn(shape, name), icon,
+    }));
+    return [{ label: () => t().close, pressed: () => true, act: () => (this.adding = false) }, ...shapes];
   }
 
   /** Lights the button that is pointed at, and draws anew where anything changed. */
   update(rays: readonly Ray[]): void {
     this.pointed = -1;
-    for (const ray of rays) this.pointed = Math.max(this.pointed, this.buttonAt(ray));
+    for (const ray of rays) this.pointed = Math.max(this.pointed, this.buttonAt(ray) ?? -1);
     const title = this.playground.scene.value?.title ?? "Hyperbody";
     const told = this.told();
     const state = [title, told, this.pointed, this.playground.slice.offset().toFixed(1), ...this.buttons.map(({ label, pressed }) => label() + pressed())].join("|");
@@ -122,19 +133,25 @@ export class WristPanel {
   /** Presses what the ray meets; false if it misses the panel. */
   press(ray: Ray): boolean {
     const button = this.buttonAt(ray);
-    if (button < 0) return false;
-    this.buttons[button].act();
+    if (button === null) return false;
+    this.buttons[button]?.act();
     return true;
   }
 
-  private buttonAt(ray: Ray): number {
+  /** Rows are as high as the usual buttons fill the panel. */
+  private get rowHeight(): number {
+    return (PIXELS.height - HEADER) / Math.ceil(this.usual.length / COLUMNS);
+  }
+
+  /** The number of the button; −1 beside them on the panel, null beside the panel. */
+  private buttonAt(ray: Ray): number | null {
     const caster = new Raycaster(ray.origin, ray.direction);
     const uv = this.mesh.visible ? caster.intersectObject(this.mesh)[0]?.uv : undefined;
-    if (!uv) return -1;
+    if (!uv) return null;
     const [x, y] = [uv.x * PIXELS.width, (1 - uv.y) * PIXELS.height - HEADER];
     if (y < 0) return -1;
-    const height = (PIXELS.height - HEADER) / Math.ceil(this.buttons.length / COLUMNS);
-    return Math.min(this.buttons.length - 1, Math.floor(y / height) * COLUMNS + Math.floor((x / PIXELS.width) * COLUMNS));
+    const button = Math.floor(y / this.rowHeight) * COLUMNS + Math.floor((x / PIXELS.width) * COLUMNS);
+    return button < this.buttons.length ? button : -1;
   }
 
   private draw(title: string, told: string): void {
@@ -154,16 +171,29 @@ export class WristPanel {
     if (this.playground.slice.offCount > 0) context.fillText(`w ${this.playground.slice.offset().toFixed(1)}`, width - 130, 44);
     context.fillStyle = "#b9c6e8";
     context.fillText(told, 28, 92, width - 56);
-    const buttonHeight = (height - HEADER) / Math.ceil(this.buttons.length / COLUMNS);
-    this.buttons.forEach(({ label, pressed }, i) => {
+    const buttonHeight = this.rowHeight;
+    this.buttons.forEach(({ label, pressed, icon }, i) => {
       const [x, y] = [((i % COLUMNS) * width) / COLUMNS + 10, HEADER + Math.floor(i / COLUMNS) * buttonHeight];
       context.fillStyle = i === this.pointed ? "#4f7fd6" : pressed() ? "#2d4a80" : "#1d2745";
       context.beginPath();
       context.roundRect(x, y, width / COLUMNS - 20, buttonHeight - 12, 18);
       context.fill();
       context.fillStyle = "#fff";
-      context.fillText(label(), x + 20, y + (buttonHeight - 12) / 2 + 2, width / COLUMNS - 60);
+      const middle = y + (buttonHeight - 12) / 2;
+      const indent = icon ? 24 * ICON_SCALE + 12 : 0;
+      if (icon) drawIcon(context, icon, x + 12, middle - 12 * ICON_SCALE);
+      context.fillText(label(), x + 20 + indent, middle + 2, width / COLUMNS - 60 - indent);
     });
     this.texture.needsUpdate = true;
   }
+}
+
+function drawIcon(context: CanvasRenderingContext2D, path: string, left: number, top: number): void {
+  context.save();
+  context.translate(left, top);
+  context.scale(ICON_SCALE, ICON_SCALE);
+  context.strokeStyle = "#9ec1ff";
+  context.lineWidth = 1.4;
+  context.stroke(new Path2D(path));
+  context.restore();
 }
