@@ -178,3 +178,11 @@ test("a die tells the cell that lies in the ground, and nothing where the slice 
   // The slice is turned in its own axes: its second one points along z.
   assert.equal(restsOn(frame([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0]], [[0, -1, 0], [0, 0, 1]]), 5, down), 2);
 });
+
+test("what a frame fills has its normals before the first frame: without them three.js would shade round bodies flat, for good", async () => {
+  const { SurfaceLayer } = await vite.ssrLoadModule("/src/view/surfaces.ts");
+  const { BodyStyles } = await vite.ssrLoadModule("/src/view/body-styles.ts");
+  const { mesh } = new SurfaceLayer(new BodyStyles());
+  assert.deepEqual(Object.keys(mesh.geometry.attributes).sort(), ["color", "normal", "position"]);
+  assert.equal(mesh.geometry.drawRange.count, 0);
+});

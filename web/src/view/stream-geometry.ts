@@ -18,6 +18,8 @@ export class StreamGeometry {
   private capacity = 0;
 
   constructor(private readonly layout: readonly Layout[]) {
+    // From the start: three.js shades flat, for good, what has no normals when it is drawn first.
+    this.reserve(LEAST_VERTICES);
     this.geometry.setDrawRange(0, 0);
   }
 
