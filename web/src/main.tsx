@@ -88,7 +88,9 @@ async function loadFirst(playground: Playground): Promise<void> {
   const asked = options.get("scene");
   const first = [asked, ...FIRST_SCENES].find((name) => name !== null && names.includes(name)) ?? names[0];
   await runLink(playground);
-  if (!playground.scene.value) await playground.open(first);
+  if (playground.scene.value) return;
+  await playground.open(first);
+  if (asked && asked !== first) playground.say(t().noScene(asked));
 }
 
 /** Runs the scene in the address, if there is one. */

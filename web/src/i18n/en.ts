@@ -104,7 +104,7 @@ export const en = {
   linkReady: "The link is in the address bar",
   line: (n: number) => `Line ${n}`,
   /** What the engine says of a scene's text. */
-  problem: (message: string) => message,
+  problem: (message: string) => message.replace(/^line \d+, (column \d+: )/, "$1"),
   mine: "Yours",
   sceneSaved: (name: string) => `“${name}” is kept in this browser`,
   keptHere: (address: string) => `Scenes that you keep in the editor stay in this browser, for the address ${address} alone. Another port or browser has its own: take them along as a file.`,
@@ -115,6 +115,8 @@ export const en = {
   storageClosed: "This browser does not let the page keep things.",
   linkTooLong: "This scene is too large for a link. Download it as a file instead.",
   tooLarge: (name: string, most: string) => `${name} is larger than ${most} MB; no scene is.`,
+  emptyText: "There is no scene in this: it is empty.",
+  noScene: (name: string) => `There is no scene called “${name}”; here is another one.`,
   badLink: "The scene in this link is damaged; here is another one.",
 
   sound: "Sound of impacts",

@@ -14,12 +14,13 @@ const KNOWN: readonly (readonly [RegExp, string])[] = [
   [/^"(.*?)" is already the name of (.*); names have to differ$/, "名称“$1”已被 $2 使用"],
   [/^not JSON: trailing comma$/, "多了一个逗号"],
   [/^not JSON: EOF .*$/, "文本不完整，像是被截断了"],
+  [/^not JSON: a key has to be a string in double quotes$/, "不是 JSON：键必须是双引号里的字符串"],
   [/^not JSON: expected (.*)$/, "不是 JSON：此处应为 $1"],
   [/^not JSON: (.*)$/, "不是 JSON：$1"],
 ];
 
 const TERMS: readonly (readonly [RegExp, string])[] = [
-  [/\ban? (?:whole )?number(?: from (\d+) to (\d+))?/g, "数"], [/\ba string(?: in quotes)?/g, "字符串"], [/\ba list(?: of numbers)?/g, "列表"], [/\ban? object\b/g, "对象"], [/\bvalue\b/g, "值"],
+  [/\ba whole number from (\d+) to (\d+)/g, "$1 到 $2 的整数"], [/\ba whole number\b/g, "整数"], [/\ba number from (\S+) to (\S+)/g, "$1 到 $2 的数"], [/\ba number\b/g, "数"], [/\ba string(?: in quotes)?/g, "字符串"], [/\ba list(?: of numbers)?/g, "列表"], [/\ban? object\b/g, "对象"], [/\bvalue\b/g, "值"],
   [/\bradius\b/g, "半径"], [/\bhalf-extent\b/g, "半长"], [/ of an? (\w+)/g, "（$1）"], [/ or /g, " 或 "],
 ];
 

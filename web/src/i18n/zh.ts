@@ -116,6 +116,8 @@ export const zh: Words = {
   storageClosed: "此浏览器不允许页面保存内容。",
   linkTooLong: "这个场景太大，放不进链接；请下载为文件。",
   tooLarge: (name, most) => `${name} 超过 ${most} MB，不会是场景。`,
+  emptyText: "这里面没有场景：内容是空的。",
+  noScene: (name: string) => `没有名为“${name}”的场景，先看看另一个吧。`,
   badLink: "链接中的场景已损坏，先看看另一个吧。",
 
   sound: "碰撞声",

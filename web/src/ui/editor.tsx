@@ -20,6 +20,10 @@ const problem = signal<{ message: string; line: number | undefined } | null>(nul
 
 /** Runs a scene from outside; if it is broken, the editor opens on the line that is. A file of kept scenes is kept instead. */
 export async function runText(playground: Playground, source: string, name: string | null = null): Promise<void> {
+  if (source.trim() === "") {
+    playground.say(t().emptyText);
+    return;
+  }
   if (isCollection(source)) {
     takeIn(playground, source);
     return;

@@ -95,7 +95,8 @@ impl Limit {
             return Ok(());
         }
         let (largest, unit) = (self.largest, self.unit);
-        Err(SceneError::value(path, format!("is {value:?}; it has to lie within ±{largest:?} {unit}")))
+        let largest = if largest < 1e6 { largest.to_string() } else { format!("{largest:e}") };
+        Err(SceneError::value(path, format!("is {value:?}; it has to lie within ±{largest} {unit}")))
     }
 }
 
