@@ -96,8 +96,15 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
 }
 
-/// The corners of all triangles that are more than slivers, with their normals and the direction they face, of length 2 areas.
-fn triangles(playground: &mut Playground) -> Vec<([[f64; 3]; 3], [[f64; 3]; 3], [f64; 3])> {
+/// A triangle with the normals of its corners, and the direction it faces, as long as twice its area.
+struct Triangle {
+    corners: [[f64; 3]; 3],
+    normals: [[f64; 3]; 3],
+    facing: [f64; 3],
+}
+
+/// All triangles that are more than slivers.
+fn triangles(playground: &mut Playground) -> Vec<Triangle> {
     playground.draw();
     let drawn = playground.buffers();
     let points =
@@ -105,9 +112,10 @@ fn triangles(playground: &mut Playground) -> Vec<([[f64; 3]; 3], [[f64; 3]; 3], 
     let pairs = drawn.surface_positions.chunks_exact(9).zip(drawn.surface_normals.chunks_exact(9));
     let all = pairs.map(|(corners, normals)| {
         let corners = points(corners);
-        (corners, points(normals), cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))
+        let facing = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+        Triangle { corners, normals: points(normals), facing }
     });
-    all.filter(|(_, _, facing)| dot(*facing, *facing) > 1e-10).collect()
+    all.filter(|triangle| dot(triangle.facing, triangle.facing) > 1e-10).collect()
 }
 
 #[test]
@@ -127,7 +135,7 @@ fn triangles_of_round_bodies_with_edges_face_outward_as_their_normals_do() {
             let mut playground = with_bodies(dimension, json!([{ "shape": shape, "rotation": rotation }]));
             let triangles = triangles(&mut playground);
             assert!(triangles.len() > 100, "{shape} at {angle}°: {} triangles", triangles.len());
-            for (corners, normals, facing) in triangles {
+            for Triangle { corners, normals, facing } in triangles {
                 // The origin is the middle of the section.
                 let outward = dot(facing, corners[0]);
                 assert!(outward > 0.0, "{shape} at {angle}°: {corners:?} faces inward");
@@ -147,8 +155,8 @@ fn the_ends_of_a_cylinder_are_flat_and_whole() {
         { "shape": { "box": { "half_extents": [0.75] } }, "axes": "z" }]);
     let mut playground = one_body(3, json!({ "product": { "factors": factors } }));
     let triangles = triangles(&mut playground);
-    let top: Vec<_> = triangles.iter().filter(|(corners, ..)| corners.iter().all(|c| c[2] > 0.749)).collect();
-    for (corners, normals, _) in &top {
+    let top: Vec<_> = triangles.iter().filter(|triangle| triangle.corners.iter().all(|c| c[2] > 0.749)).collect();
+    for Triangle { corners, normals, .. } in &top {
         assert!(normals.iter().all(|normal| normal[2] > 1.0 - 1e-6), "{corners:?} {normals:?}");
     }
     // The rim is a polygon of some dozens of corners.
@@ -157,7 +165,7 @@ fn the_ends_of_a_cylinder_are_flat_and_whole() {
         let within = |corners: &[[f64; 3]; 3]| {
             (0..3).all(|i| cross(minus(corners[(i + 1) % 3], corners[i]), minus(point, corners[i]))[2] >= -1e-9)
         };
-        assert!(top.iter().any(|(corners, ..)| within(corners)), "a hole at {point:?}");
+        assert!(top.iter().any(|triangle| within(&triangle.corners)), "a hole at {point:?}");
     }
 }
 
