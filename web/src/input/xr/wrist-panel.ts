@@ -6,6 +6,7 @@ import { allScenes } from "../../scenes/gallery";
 import { settings } from "../../app/settings";
 import { t } from "../../i18n";
 import { shapesFor } from "../../scenes/shapes";
+import { sceneWords } from "../../ui/gallery";
 import { toggleGravity } from "../../ui/more-panel";
 import { SLOW_FACTOR } from "../../ui/transport";
 
@@ -115,7 +116,8 @@ export class WristPanel {
   update(rays: readonly Ray[]): void {
     this.pointed = -1;
     for (const ray of rays) this.pointed = Math.max(this.pointed, this.buttonAt(ray) ?? -1);
-    const title = this.playground.scene.value?.title ?? "Hyperbody";
+    const scene = this.playground.scene.value;
+    const title = scene ? sceneWords(this.playground.sceneName.value, scene).title : "Hyperbody";
     const told = this.told();
     const state = [title, told, this.pointed, this.playground.slice.offset().toFixed(1), ...this.buttons.map(({ label, pressed }) => label() + pressed())].join("|");
     if (state === this.drawn) return;
