@@ -58,6 +58,21 @@ impl<const N: usize> Core<N> {
         }
     }
 
+    /// The points whose hull the core is.
+    pub(crate) fn corners(&self) -> Vec<Vector<N>> {
+        match self {
+            Self::Point => vec![Vector::ZERO],
+            Self::Segment { half } => vec![-*half, *half],
+            Self::Box { half_extents } => {
+                let corner = |bits: u32| {
+                    Vector::from_fn(|i| if bits >> i & 1 == 0 { -half_extents[i] } else { half_extents[i] })
+                };
+                (0..1 << N).map(corner).collect()
+            }
+            Self::Polytope(polytope) => polytope.vertices().to_vec(),
+        }
+    }
+
     /// Radius of the smallest ball about the origin of the collider's frame that holds the core.
     #[must_use]
     pub fn bounding_radius(&self) -> f64 {

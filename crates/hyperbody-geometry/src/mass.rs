@@ -8,6 +8,8 @@ mod orthant;
 mod rounded_box;
 mod rounded_polytope;
 
+pub(crate) use rounded_polytope::{Normals, orthogonal_part, simplex_content};
+
 use hyperbody_math::eigen::symmetric_eigen;
 use hyperbody_math::{Matrix, Pose, Rotation, Vector};
 

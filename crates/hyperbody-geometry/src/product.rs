@@ -14,7 +14,7 @@ use crate::mass::MassProperties;
 use crate::polytope::Facet;
 use crate::round_parts::RoundPart;
 use crate::section::density::{self, Simplex, Term};
-use crate::section::{SupportMap, approximate};
+use crate::section::{SectionFunction, SupportMap, approximate};
 use crate::shape::Piece;
 use crate::tolerances::{COARSENING, COARSEST, FACETING, MAX_PRODUCT_VERTICES, MOST_COARSER};
 use crate::{Convex, Core, GeometryError, Polytope, Result, Shape};
@@ -40,20 +40,23 @@ pub struct Factor {
 
 /// The section function of a factor, whose dimension is in its type only.
 trait FactorMeasure: std::fmt::Debug + Send + Sync {
-    /// As [`SupportMap::section_volume`].
-    fn section_volume(&self, normal: &[f64], offset: f64, tolerance: f64) -> f64;
+    /// The volume of the section across a unit normal, as a function of offset and tolerance.
+    fn section_function<'a>(&'a self, normal: &[f64]) -> SectionOf<'a>;
 
     /// The polytope that contacts see in place of a curved factor, so many times as far from it as usual, and how far that is.
     fn faceted(&self, coarser: f64) -> Option<Result<(Faceted, f64)>>;
 }
+
+type SectionOf<'a> = Box<dyn Fn(f64, f64) -> f64 + 'a>;
 
 /// A factor with flat faces, filled with simplices.
 #[derive(Debug)]
 struct FlatMeasure<const K: usize>(Vec<Simplex<K>>);
 
 impl<const K: usize> FactorMeasure for FlatMeasure<K> {
-    fn section_volume(&self, normal: &[f64], offset: f64, _tolerance: f64) -> f64 {
-        Vector::from_slice(normal).map_or(0.0, |normal| density::of_simplices(&self.0, normal, offset))
+    fn section_function<'a>(&'a self, normal: &[f64]) -> SectionOf<'a> {
+        let normal = Vector::from_slice(normal).unwrap_or(Vector::ZERO);
+        Box::new(move |offset, _tolerance| density::of_simplices(&self.0, normal, offset))
     }
 
     fn faceted(&self, _coarser: f64) -> Option<Result<(Faceted, f64)>> {
@@ -62,9 +65,13 @@ impl<const K: usize> FactorMeasure for FlatMeasure<K> {
 }
 
 impl<const K: usize> FactorMeasure for Convex<K> {
-    fn section_volume(&self, normal: &[f64], offset: f64, tolerance: f64) -> f64 {
-        Vector::from_slice(normal)
-            .map_or(0.0, |normal| SupportMap::<K>::section_volume(self, normal, offset, tolerance))
+    fn section_function<'a>(&'a self, normal: &[f64]) -> SectionOf<'a> {
+        let normal = Vector::from_slice(normal).unwrap_or(Vector::ZERO);
+        // What all sections across one direction have in common is made once.
+        match SectionFunction::of_convex(self, normal) {
+            Some(function) => Box::new(move |offset, _tolerance| function.at(offset)),
+            None => Box::new(move |offset, tolerance| SupportMap::<K>::section_volume(self, normal, offset, tolerance)),
+        }
     }
 
     fn faceted(&self, coarser: f64) -> Option<Result<(Faceted, f64)>> {
@@ -118,7 +125,7 @@ impl Factor {
             if convex.radius == 0.0 { Arc::new(FlatMeasure(filling(&convex.core)?)) } else { Arc::new(convex.clone()) };
         Ok(Self {
             axes: axes.to_vec(),
-            corners: corners(&convex.core).iter().flat_map(|c| c.0).collect(),
+            corners: convex.core.corners().iter().flat_map(|c| c.0).collect(),
             radius: convex.radius,
             volume: mass.mass,
             centre: mass.centre.iter().collect(),
@@ -146,8 +153,7 @@ impl Factor {
         let unit: Vec<f64> = part.iter().map(|c| c / weight).collect();
         let opposite: Vec<f64> = unit.iter().map(|c| -c).collect();
         let range = [-self.reach(&opposite), self.reach(&unit)];
-        let section = move |offset: f64, tolerance: f64| self.measure.section_volume(&unit, offset, tolerance);
-        Some(Term { weight, range, section: Box::new(section) })
+        Some(Term { weight, range, section: self.measure.section_function(&unit) })
     }
 
     pub(crate) fn axes(&self) -> &[usize] {
@@ -228,7 +234,7 @@ const BLIND: f64 = 1e-12;
 
 /// Simplices that fill a core.
 fn filling<const K: usize>(core: &Core<K>) -> Result<Vec<Simplex<K>>> {
-    let corners = corners(core);
+    let corners = core.corners();
     if K == 1 {
         return Ok(density::simplices(&corners, &[vec![0, 1]]));
     }
@@ -236,25 +242,7 @@ fn filling<const K: usize>(core: &Core<K>) -> Result<Vec<Simplex<K>>> {
         Core::Polytope(polytope) => Arc::clone(polytope),
         _ => Arc::new(Polytope::from_points(&corners)?),
     };
-    let mut points = polytope.vertices().to_vec();
-    points.push(polytope.vertex_mean());
-    let apex = polytope.vertices().len() as u32;
-    let cone = |simplex: &[u32; K]| std::iter::once(apex).chain(simplex.iter().copied()).collect::<Vec<u32>>();
-    Ok(density::simplices(&points, &polytope.boundary_simplices().iter().map(cone).collect::<Vec<_>>()))
-}
-
-/// The vertices of a core.
-fn corners<const K: usize>(core: &Core<K>) -> Vec<Vector<K>> {
-    match core {
-        Core::Point => vec![Vector::ZERO],
-        Core::Segment { half } => vec![-*half, *half],
-        Core::Box { half_extents } => {
-            let corner =
-                |bits: usize| Vector::from_fn(|i| if bits >> i & 1 == 0 { -half_extents[i] } else { half_extents[i] });
-            (0..1 << K).map(corner).collect()
-        }
-        Core::Polytope(polytope) => polytope.vertices().to_vec(),
-    }
+    Ok(density::filling(&polytope))
 }
 
 impl Faceted {
@@ -278,7 +266,7 @@ impl Faceted {
         if convex.radius == 0.0 {
             let polytope = match &convex.core {
                 Core::Polytope(polytope) => Arc::clone(polytope),
-                core => Arc::new(Polytope::from_points(&corners(core))?),
+                core => Arc::new(Polytope::from_points(&core.corners())?),
             };
             return Ok((Self::of_polytope(&polytope), 0.0));
         }

@@ -37,7 +37,7 @@ struct Cone<const N: usize> {
 }
 
 /// What the cones of one rank need to know of the lattice and of the ranks above.
-struct Normals<'a, const N: usize> {
+pub(crate) struct Normals<'a, const N: usize> {
     polytope: &'a Polytope<N>,
     lattice: &'a FaceLattice,
     /// By rank and face: the faces one rank higher around it.
@@ -107,20 +107,25 @@ fn face_moments<const N: usize>(
     let mut moments = Moments::ZERO;
     for simplex in lattice.triangulation(rank, face) {
         let corners: Vec<Vector<N>> = simplex.iter().map(|&v| polytope.vertices()[v as usize] - reference).collect();
-        let mut content = 1.0 / factorial(rank);
-        let mut basis: Vec<Vector<N>> = Vec::with_capacity(rank);
-        for &corner in &corners[1..] {
-            let height = orthogonal_part(corner - corners[0], &basis);
-            content *= height.norm();
-            basis.push(height.normalize_or_zero());
-        }
-        moments.add_simplex(content, &corners);
+        moments.add_simplex(simplex_content(&corners), &corners);
     }
     moments
 }
 
+/// The content of a simplex in its own dimension.
+pub(crate) fn simplex_content<const N: usize>(corners: &[Vector<N>]) -> f64 {
+    let mut content = 1.0 / factorial(corners.len() - 1);
+    let mut basis: Vec<Vector<N>> = Vec::with_capacity(corners.len());
+    for &corner in &corners[1..] {
+        let height = orthogonal_part(corner - corners[0], &basis);
+        content *= height.norm();
+        basis.push(height.normalize_or_zero());
+    }
+    content
+}
+
 impl<'a, const N: usize> Normals<'a, N> {
-    fn new(polytope: &'a Polytope<N>, lattice: &'a FaceLattice) -> Self {
+    pub(crate) fn new(polytope: &'a Polytope<N>, lattice: &'a FaceLattice) -> Self {
         let cofaces: Vec<Vec<Vec<u32>>> = (0..N - 1).map(|rank| lattice.cofaces(rank)).collect();
         let mut facets: Vec<Vec<Vec<u32>>> = vec![(0..lattice.faces(N - 1).len() as u32).map(|f| vec![f]).collect()];
         for around in cofaces.iter().rev() {
@@ -137,7 +142,16 @@ impl<'a, const N: usize> Normals<'a, N> {
         Self { polytope, lattice, cofaces, facets }
     }
 
-    fn facet_normal(&self, facet: u32) -> Vector<N> {
+    pub(crate) const fn lattice(&self) -> &'a FaceLattice {
+        self.lattice
+    }
+
+    /// The faces one rank higher around a face: their normal cones are the facets of its own.
+    pub(crate) fn cofaces(&self, rank: usize, face: usize) -> &[u32] {
+        &self.cofaces[rank][face]
+    }
+
+    pub(crate) fn facet_normal(&self, facet: u32) -> Vector<N> {
         self.polytope.facets()[facet as usize].normal
     }
 
@@ -173,7 +187,7 @@ impl<'a, const N: usize> Normals<'a, N> {
 
     /// An orthonormal basis of the face's own directions, and for each coface the unit vector orthogonal to the face
     /// that points into it.
-    fn directions(&self, rank: usize, face: usize) -> (Vec<Vector<N>>, Vec<Vector<N>>) {
+    pub(crate) fn directions(&self, rank: usize, face: usize) -> (Vec<Vector<N>>, Vec<Vector<N>>) {
         let vertices = self.polytope.vertices();
         let own = &self.lattice.faces(rank)[face].vertices;
         let base = vertices[own[0] as usize];
@@ -255,7 +269,7 @@ impl<const N: usize> Normals<'_, N> {
 }
 
 /// What is left of `v` without its parts along orthonormal vectors; taken away twice, so that nothing is left of them.
-pub(super) fn orthogonal_part<const N: usize>(mut v: Vector<N>, basis: &[Vector<N>]) -> Vector<N> {
+pub(crate) fn orthogonal_part<const N: usize>(mut v: Vector<N>, basis: &[Vector<N>]) -> Vector<N> {
     for _ in 0..2 {
         for &b in basis {
             v -= b * b.dot(v);

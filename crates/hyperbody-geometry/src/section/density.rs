@@ -6,6 +6,7 @@
 
 use hyperbody_math::{Matrix, Vector};
 
+use crate::Polytope;
 use crate::quadrature::integrate_between;
 use crate::volume::{factorial, unit_ball};
 
@@ -28,6 +29,15 @@ pub(crate) fn simplices<const K: usize>(points: &[Vector<K>], lists: &[Vec<u32>]
     lists.iter().map(simplex).collect()
 }
 
+/// Simplices that fill a polytope.
+pub(crate) fn filling<const K: usize>(polytope: &Polytope<K>) -> Vec<Simplex<K>> {
+    let mut points = polytope.vertices().to_vec();
+    points.push(polytope.vertex_mean());
+    let apex = polytope.vertices().len() as u32;
+    let cone = |simplex: &[u32; K]| std::iter::once(apex).chain(simplex.iter().copied()).collect::<Vec<u32>>();
+    simplices(&points, &polytope.boundary_simplices().iter().map(cone).collect::<Vec<_>>())
+}
+
 /// The section function of what simplices fill, for a unit normal.
 pub(crate) fn of_simplices<const K: usize>(simplices: &[Simplex<K>], normal: Vector<K>, offset: f64) -> f64 {
     let of_simplex = |simplex: &Simplex<K>| {
@@ -39,6 +49,13 @@ pub(crate) fn of_simplices<const K: usize>(simplices: &[Simplex<K>], normal: Vec
         simplex.volume * spline_at_zero(&mut knots[..=K])
     };
     simplices.iter().map(of_simplex).sum()
+}
+
+/// The B-spline of integral one with these knots, at a height.
+pub(super) fn spline(corners: &[f64], height: f64) -> f64 {
+    let mut knots = [0.0; MAX_KNOTS];
+    knots.iter_mut().zip(corners).for_each(|(knot, corner)| *knot = corner - height);
+    spline_at_zero(&mut knots[..corners.len()])
 }
 
 /// Corners of a simplex in six dimensions.

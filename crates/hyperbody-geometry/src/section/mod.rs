@@ -12,17 +12,20 @@
 //! | `fallback` | the same for polytopes from files of few digits |
 //! | `support` | [`SupportMap`]: sections of curved bodies |
 //! | `measure` | volumes of sections of curved bodies, to a given tolerance |
+//! | `rounded_polytope`, `cone_cut` | those of rounded polytopes, to rounding |
 //! | `density` | the same in closed form, or as one integral: polytopes, balls, capsules, products |
 //! | `approximate` | [`approximate()`]: polytopes for curved bodies, with a bound on the error |
 
 mod approximate;
+mod cone_cut;
 mod cut;
 pub(crate) mod density;
 mod fallback;
 mod frame;
 mod measure;
+mod panels;
 mod polytope;
-mod rounded_box;
+mod rounded_polytope;
 mod solid;
 mod support;
 
@@ -30,6 +33,7 @@ pub use approximate::{MAX_APPROXIMATION_VERTICES, approximate};
 pub use cut::SectionScratch;
 pub use frame::SliceFrame;
 pub use polytope::SectionPolytope;
+pub(crate) use rounded_polytope::SectionFunction;
 pub use solid::Solid;
 pub(crate) use support::InShadow;
 pub use support::SupportMap;

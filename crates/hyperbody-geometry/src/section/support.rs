@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use hyperbody_math::Vector;
 
-use super::{SliceFrame, density, measure, rounded_box};
+use super::{SectionFunction, SliceFrame, density, measure};
 use crate::{Convex, Core, Polytope};
 
 /// A bounded convex body in its own frame.
@@ -40,8 +40,10 @@ impl<const N: usize> SupportMap<N> for Convex<N> {
         match &self.core {
             Core::Point => density::of_ball(N, self.radius, offset),
             Core::Segment { half } => density::of_capsule(*half, self.radius, normal, offset, tolerance),
-            Core::Box { half_extents } => rounded_box::section(*half_extents, self.radius, normal, offset, tolerance),
-            Core::Polytope(_) => measure::section_by_support(self, normal, offset, tolerance),
+            Core::Box { .. } | Core::Polytope(_) => match SectionFunction::of_convex(self, normal) {
+                Some(function) => function.at(offset),
+                None => measure::section_by_support(self, normal, offset, tolerance),
+            },
         }
     }
 }

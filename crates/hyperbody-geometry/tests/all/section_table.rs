@@ -75,6 +75,10 @@ fn rounded_box<const N: usize>(from: usize) -> Factor {
     factor(from, &Shape::rounded(core, 0.2).unwrap())
 }
 
+fn rounded_polytope<const N: usize>(from: usize, name: &str) -> Factor {
+    factor(from, &Shape::rounded(regular::<N>(name, 0.5), 0.2).unwrap())
+}
+
 /// What there is in every dimension.
 fn common<const N: usize>(table: &mut Table) {
     let mut random = Random(2200 + N as u64);
@@ -127,6 +131,7 @@ fn products(table: &mut Table) {
     const FLAT: &str = "product of balls and polytopes";
     const CAPSULE: &str = "product with a capsule";
     const ROUNDED: &str = "product with a rounded box";
+    const ROUNDED_POLYTOPE: &str = "product with a rounded polytope";
     const PRISM: &str = "product of polytopes (duoprism …)";
     add::<4>(table, BALLS, vec![ball::<2>(0), ball::<2>(2)]);
     add::<5>(table, BALLS, vec![ball::<2>(0), ball::<3>(2)]);
@@ -151,6 +156,13 @@ fn products(table: &mut Table) {
     add::<3>(table, ROUNDED, vec![rounded_box::<2>(0), cuboid::<1>(2)]);
     add::<4>(table, ROUNDED, vec![rounded_box::<3>(0), cuboid::<1>(3)]);
     add::<5>(table, ROUNDED, vec![rounded_box::<3>(0), cuboid::<2>(3)]);
+    add::<5>(table, ROUNDED, vec![rounded_box::<3>(0), ball::<2>(3)]);
+    add::<5>(table, ROUNDED, vec![rounded_box::<4>(0), cuboid::<1>(4)]);
+    add::<6>(table, ROUNDED, vec![rounded_box::<3>(0), ball::<3>(3)]);
+    add::<6>(table, ROUNDED, vec![rounded_box::<4>(0), ball::<2>(4)]);
+    add::<4>(table, ROUNDED_POLYTOPE, vec![rounded_polytope::<3>(0, "octahedron"), cuboid::<1>(3)]);
+    add::<5>(table, ROUNDED_POLYTOPE, vec![rounded_polytope::<3>(0, "tetrahedron"), ball::<2>(3)]);
+    add::<6>(table, ROUNDED_POLYTOPE, vec![rounded_polytope::<4>(0, "simplex"), ball::<2>(4)]);
     add::<6>(table, ROUNDED, vec![rounded_box::<3>(0), cuboid::<3>(3)]);
     let polygon = |from, name| factor(from, &regular::<2>(name, 0.6));
     add::<3>(table, PRISM, vec![polygon(0, "7-gon"), cuboid::<1>(2)]);
@@ -179,11 +191,13 @@ fn pyramids(table: &mut Table) {
     add::<5>(table, CAPSULE, capsule::<4>(0));
     add::<3>(table, ROUNDED, rounded_box::<2>(0));
     add::<4>(table, ROUNDED, rounded_box::<3>(0));
+    add::<5>(table, ROUNDED, rounded_box::<4>(0));
+    add::<5>(table, "cone over a rounded polytope", rounded_polytope::<4>(0, "simplex"));
 }
 
 /// ∫ of sections that take long: five nodes between each two of these parts of the way to the ends, more of them near the ends, on
 /// two threads.
-fn integrated_sparsely<const N: usize>(shape: &Shape<N>, tolerance: f64, panels: u32) -> f64 {
+fn integrated_sparsely<const N: usize>(shape: &Shape<N>, panels: u32) -> f64 {
     let normal = oblique::<N>();
     let solid = &shape.solids()[0];
     let (low, high) = (-solid.reach(-normal), solid.reach(normal));
@@ -193,7 +207,7 @@ fn integrated_sparsely<const N: usize>(shape: &Shape<N>, tolerance: f64, panels:
             for (node, weight) in GAUSS {
                 let t = (f64::from(panel) + 0.5 * (1.0 + node)) / f64::from(panels);
                 let frame = SliceFrame::from_normal(normal, low + (high - low) * t * t * (3.0 - 2.0 * t)).unwrap();
-                let section = solid.section_volume(&frame, tolerance).unwrap();
+                let section = solid.section_volume(&frame, TOLERANCE).unwrap();
                 sum += 3.0 * (high - low) * t * (1.0 - t) * weight / f64::from(panels) * section;
             }
         }
@@ -205,7 +219,7 @@ fn integrated_sparsely<const N: usize>(shape: &Shape<N>, tolerance: f64, panels:
     })
 }
 
-fn rounded<const N: usize>(table: &mut Table, name: &str, tolerance: f64, panels: u32) {
+fn rounded<const N: usize>(table: &mut Table, name: &str, panels: u32) {
     let core = match name {
         "box" => Shape::cuboid(Vector::<N>::from_fn(|i| 0.3 + 0.05 * i as f64)).unwrap(),
         _ => regular::<N>(name, 0.7),
@@ -213,7 +227,7 @@ fn rounded<const N: usize>(table: &mut Table, name: &str, tolerance: f64, panels
     let sort = if name == "box" { "rounded box" } else { "rounded polytope" };
     let shape = Shape::rounded(core, 0.3).unwrap();
     let start = std::time::Instant::now();
-    let sections = integrated_sparsely(&shape, tolerance, panels);
+    let sections = integrated_sparsely(&shape, panels);
     println!("{N}D rounded {name}: {} sections in {:.1} s", 5 * panels, start.elapsed().as_secs_f64());
     table.add::<N>(sort, sections, shape.mass_properties(1.0).unwrap().mass);
 }
@@ -253,12 +267,19 @@ fn sections_of_stars_add_up_to_the_volume() {
 }
 
 #[test]
-fn sections_of_rounded_shapes_of_few_dimensions_add_up_to_the_volume() {
+fn sections_of_rounded_shapes_add_up_to_the_volume() {
     let mut table = Table::default();
-    rounded::<2>(&mut table, "box", TOLERANCE, 100);
-    rounded::<2>(&mut table, "pentagon", TOLERANCE, 100);
-    rounded::<3>(&mut table, "box", TOLERANCE, 60);
-    rounded::<3>(&mut table, "dodecahedron", TOLERANCE, 60);
-    rounded::<4>(&mut table, "box", TOLERANCE, 40);
+    rounded::<2>(&mut table, "box", 100);
+    rounded::<2>(&mut table, "pentagon", 100);
+    rounded::<3>(&mut table, "box", 60);
+    rounded::<3>(&mut table, "dodecahedron", 60);
+    rounded::<4>(&mut table, "box", 30);
+    rounded::<4>(&mut table, "simplex", 30);
+    rounded::<4>(&mut table, "24-cell", 30);
+    rounded::<5>(&mut table, "box", 16);
+    rounded::<5>(&mut table, "simplex", 16);
+    rounded::<5>(&mut table, "orthoplex", 16);
+    rounded::<6>(&mut table, "box", 10);
+    rounded::<6>(&mut table, "simplex", 16);
     table.print();
 }
