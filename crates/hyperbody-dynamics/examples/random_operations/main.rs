@@ -1,8 +1,8 @@
 //! Random operations on worlds of two to six dimensions, and what came of them:
 //! `cargo run --release -p hyperbody-dynamics --example random_operations [SEEDS [OPERATIONS]]`.
 //!
-//! 100 seeds of 10,000 operations each if nothing is said. Ends with status 1 if a handle of what is gone was taken, a pair leaked,
-//! a body ended in quarantine, or the world was not what it must be.
+//! 100 seeds of 10,000 operations each if nothing is said. Ends with status 1 if a handle of what is gone was taken, a pair leaked, or
+//! the world was not what it must be.
 
 mod dice;
 mod joints;
