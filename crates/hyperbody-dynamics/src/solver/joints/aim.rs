@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::solve::drawn_back;
+use super::give::drawn_back;
 use super::{JointRows, Pass, Row};
 use crate::joint::{Coordinate, Role};
 use crate::solver::softness::Softness;

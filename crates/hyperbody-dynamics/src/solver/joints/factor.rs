@@ -244,6 +244,7 @@ mod tests {
                     end: rows.len(),
                     own: 0,
                     soft: Softness::RIGID,
+                    rigid: Softness::RIGID,
                     is_soft: false,
                     exact: true,
                     max_impulse: 0.0,

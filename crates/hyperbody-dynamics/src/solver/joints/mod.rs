@@ -34,10 +34,13 @@
 //! | `cluster`, `elimination`, `fronts` | which joints are solved together, in which order, and as which matrices |
 //! | `factor`, `panel` | factors of a cluster's system, and the arithmetic on them |
 //! | `block` | factors of a joint's own part |
+//! | `ahead` | what coordinates do beyond their tangents |
+//! | `give` | what rows give way, and how fast they draw back |
 //! | `aim` | what each row wants, and the impulses it may have |
 //! | `solve` | the passes |
 //! | `tension` | light bodies under great loads |
 
+mod ahead;
 mod aim;
 mod block;
 mod cluster;
@@ -46,6 +49,7 @@ mod elimination;
 mod factor;
 mod fronts;
 mod geometry;
+mod give;
 mod panel;
 mod place;
 #[cfg(test)]

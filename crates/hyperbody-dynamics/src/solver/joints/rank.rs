@@ -57,6 +57,7 @@ fn free_motions<const N: usize>(def: &JointDef<N>) -> (usize, usize, usize) {
         end: joint.rows.len(),
         own: 0,
         soft: Softness::RIGID,
+        rigid: Softness::RIGID,
         is_soft: false,
         exact: false,
         max_impulse: f64::INFINITY,
