@@ -19,7 +19,7 @@ const QUANTIZER = "36";
 const USUAL_MOMENT = 1.6;
 const MOMENTS = {
   hello4d: 1.3, smash4d: 0.5, dominoes_w4d: 1.2, regular_dice4d: 0.9, dominoes3d: 2.6, bowling4d: 0.3, pit4d: 2.5, dice4d: 2.2, balls4d: 1.6, capsules4d: 2, toybox4d: 2.4, chain3d: 0.5, pendulum4d: 0.6,
-  seesaw3d: 0.75, gyroscope3d: 1, car3d: 0.5, door4d: 1.1, wrecking_ball4d: 1.75, conveyor4d: 2.5,
+  seesaw3d: 0.75, gyroscope3d: 1, car3d: 0.5, door4d: 1.1, wrecking_ball4d: 1.75, conveyor4d: 2.5, mixer4d: 2,
   bounce2d: 0.95, cradle2d: 0.5, clouds5d: 1.2, wing_nut3d: 1, net4d: 0.35, ramp4d: 0.3, ramp3d: 0.6, rolling4d: 0.6,
 };
 

@@ -69,7 +69,7 @@ const SHOWN: [(&str, &str, (u32, u32), &str); 6] = [
 ];
 
 /// What is better shown otherwise than after three seconds and cut at w = 0.
-const MOMENTS: [(&str, &str); 20] = [
+const MOMENTS: [(&str, &str); 21] = [
     ("bounce2d", "--at 0.8"),
     ("cradle2d", "--at 0.35"),
     ("ramp3d", "--at 1.9"),
@@ -89,6 +89,7 @@ const MOMENTS: [(&str, &str); 20] = [
     ("bowling4d", "--at 0.92 --turn xw=-18.435 --camera -40,24,6 --look-at 1.4,0.6,0.4"),
     ("pendulum4d", "--at 1 --camera 34,17,5.6 --look-at -0.6,2.95,0"),
     ("door4d", "--at 1.1"),
+    ("mixer4d", "--at 2"),
     ("wrecking_ball4d", "--at 1.75"),
     // Half of the cubes of each cloud are there on the positive sides of w and v.
     ("clouds5d", "--at 1.4 --slice w=0.7,v=0.7"),

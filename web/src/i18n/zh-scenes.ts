@@ -28,6 +28,7 @@ export const zhScenes: Record<string, { title: string; sentence: string }> = {
   door4d: { title: "四维的门", sentence: "四维的门挂在一个平面（y 与 w）上，只在 xz 平面内转动；球把它撞开，到限位为止。" },
   wrecking_ball4d: { title: "绳上的破墙球", sentence: "绳上的重球沿 w 荡到视野之外，又回来撞穿超正方体之墙。" },
   conveyor4d: { title: "两条传送带", sentence: "沿 x 运行的传送带把六个超正方体交给沿 w 运行的传送带，由它送走。" },
+  mixer4d: { title: "行星齿轮搅拌机", sentence: "三根搅拌桨全凭轮齿一边自转一边公转，搅动球与超正方体；沿 w 超出桨叶范围的东西原地不动。" },
   chain3d: { title: "链与球", sentence: "十二节胶囊链末端挂着重球，从钩上荡下来。" },
   stack4d: { title: "十层超正方体", sentence: "十个超正方体叠在一起，一直稳稳立着。" },
   pyramid4d: { title: "立方体上的金字塔", sentence: "64、27、8、1 个超正方体，每个都压在下面八个之上。" },

@@ -7,6 +7,7 @@ mod friction;
 mod games;
 mod joints;
 mod machines;
+mod mixer;
 mod piles;
 mod random;
 mod spins;
@@ -36,7 +37,7 @@ impl BuiltIn {
 }
 
 /// All built-in scenes, by dimension.
-pub const BUILT_IN: [BuiltIn; 32] = [
+pub const BUILT_IN: [BuiltIn; 33] = [
     BuiltIn { name: "pyramid2d", build: stacks::pyramid_2d },
     BuiltIn { name: "bounce2d", build: bounces::restitution_2d },
     BuiltIn { name: "cradle2d", build: joints::cradle_2d },
@@ -64,6 +65,7 @@ pub const BUILT_IN: [BuiltIn; 32] = [
     BuiltIn { name: "door4d", build: machines::door_4d },
     BuiltIn { name: "wrecking_ball4d", build: machines::wrecking_ball_4d },
     BuiltIn { name: "conveyor4d", build: machines::conveyor_4d },
+    BuiltIn { name: "mixer4d", build: mixer::mixer_4d },
     BuiltIn { name: "embedded4d", build: stacks::embedded_4d },
     BuiltIn { name: "stack5d", build: stacks::stack_5d },
     BuiltIn { name: "clouds5d", build: bounces::clouds_5d },

@@ -252,6 +252,26 @@ fn the_wrecking_ball_goes_through_the_wall() {
     assert!(moved.count() >= 8, "the wall stands");
 }
 
+/// The carrier goes once around while the sun goes (48 + 12)/12 = 5 times; what the whisks reach moves, what lies beside them does not.
+#[test]
+fn the_mixer_stirs_what_its_blades_reach() {
+    let mut run = Run::new("mixer4d");
+    let end = run.until(10.0);
+    let carrier = named(&end, "carrier");
+    let turning = carrier.angular_velocity.0.iter().map(|(_, rate)| rate * rate).sum::<f64>().sqrt();
+    assert!((turning - 4.0 / 5.0).abs() < 0.01, "the carrier turns at {turning} rad/s");
+    let moved = |within: bool| {
+        let small = |body: &BodyState| body.name.starts_with("ball") || body.name.starts_with("tesseract");
+        let pairs = run.start.iter().zip(&end).filter(|(before, _)| small(before));
+        let beside = pairs.filter(|(before, _)| (before.position[3].abs() < 0.1) == within);
+        let (count, far) = beside
+            .fold((0, 0), |(count, far), (before, after)| (count + 1, far + i32::from(sideways(before, after) > 0.5)));
+        f64::from(far) / f64::from(count)
+    };
+    let (reached, beside) = (moved(true), moved(false));
+    assert!(reached > 0.5 && beside < 0.1, "{reached} of those that are reached moved, {beside} of those beside");
+}
+
 #[test]
 fn the_conveyors_carry_along_x_and_then_along_w() {
     let end = Run::new("conveyor4d").until(9.0);
