@@ -6,6 +6,7 @@
 use hyperbody_math::{Bivector, Rotation, Vector};
 
 use crate::body::Body;
+use crate::joint::Joint;
 use crate::pairs::Pair;
 use crate::solver::bodies::{Sizes, SolverBody};
 use crate::vetting::limit_speed;
@@ -22,6 +23,7 @@ impl<const N: usize> World<N> {
         for (row, solved) in self.solver.bodies.iter().enumerate() {
             let Some(body) = self.bodies.at_mut(solved.slot) else { continue };
             let before = (body.centre, body.rotation);
+            let moved = (body.velocity, body.angular_velocity);
             let at = row * Sizes::<N>::STATE;
             let (change, displacement) = self.solver.state[at..at + Sizes::<N>::STATE].split_at(Sizes::<N>::VELOCITY);
             span.translate(body, solved, &change[..N], &displacement[..N]);
@@ -36,7 +38,9 @@ impl<const N: usize> World<N> {
                 None => span.turn(body, solved, &change[N..], &displacement[N..]),
             }
             let spin = body.angular_velocity.norm();
-            finish(body, &self.tuning, self.dt);
+            finish(body, &self.tuning);
+            body.slow_time =
+                if rests(body, moved, self.gravity, &self.tuning, self.dt) { body.slow_time + self.dt } else { 0.0 };
             let turned = spin.max(body.angular_velocity.norm()) * body.radius * self.dt;
             let went = body.centre.distance(before.0) + turned;
             if went > self.tuning.speculative_distance.max(body.core_radius) {
@@ -54,6 +58,8 @@ impl<const N: usize> World<N> {
         for body in &self.quarantined[sound..] {
             let own = |pair: &&mut Pair<N>| pair.body_a == body.index || pair.body_b == body.index;
             self.pairs.iter_mut().filter(own).for_each(Pair::forget);
+            let joints = self.bodies.get(*body).map_or(&[][..], |body| &body.joints);
+            joints.iter().for_each(|&joint| self.joints.at_mut(joint).into_iter().for_each(Joint::let_go));
         }
         for body in self.bodies.values_mut().filter(|body| body.kind == BodyKind::Kinematic && !body.quarantined) {
             if let Some((centre, rotation)) = body.led_to.take() {
@@ -109,14 +115,37 @@ impl Span {
     }
 }
 
-/// Derived quantities, limits, and how long the body has been slow.
-fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning, dt: f64) {
+/// Derived quantities and limits.
+fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning) {
     body.force = Vector::ZERO;
     body.torque = Bivector::ZERO;
     body.pushed = false;
     body.refresh_angular_velocity();
     limit_speed(body, tuning);
-    let (speed, spin) = (body.velocity.norm(), body.angular_velocity.norm());
-    let fastest = speed + spin * body.radius;
-    body.slow_time = if fastest < tuning.sleep_speed { body.slow_time + dt } else { 0.0 };
+}
+
+/// The part of what pulls a jointed body that may go into its motion while it counts as resting: a pendulum rests at a tenth of a degree.
+const RESTING_SHARE: f64 = 0.002;
+
+/// The same where nothing pulls, m/s².
+const RESTING_ACCELERATION: f64 = 0.01;
+
+/// Whether a body is slow and, if joints leave it a way to go, is not on that way: what swings is slow where it turns back.
+fn rests<const N: usize>(
+    body: &Body<N>,
+    (velocity, spin): (Vector<N>, Bivector<N>),
+    gravity: Vector<N>,
+    tuning: &Tuning,
+    dt: f64,
+) -> bool {
+    let fastest = |velocity: Vector<N>, spin: Bivector<N>| velocity.norm() + spin.norm() * body.radius;
+    if fastest(body.velocity, body.angular_velocity) >= tuning.sleep_speed {
+        return false;
+    }
+    if body.joints.is_empty() {
+        return true;
+    }
+    let pull = (gravity * body.gravity_scale + body.steady_force * body.inverse_mass).norm();
+    let allowed = if pull > 0.0 { RESTING_SHARE * pull } else { RESTING_ACCELERATION };
+    fastest(body.velocity - velocity, body.angular_velocity - spin) < allowed * dt
 }

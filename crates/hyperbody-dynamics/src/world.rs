@@ -12,7 +12,7 @@ use crate::filter::IgnoredPairs;
 use crate::handle::Arena;
 use crate::islands::Islands;
 use crate::joint::Joint;
-use crate::pairs::Pairs;
+use crate::pairs::{Pair, PairRole, Pairs};
 use crate::rules::Hook;
 use crate::seams::Seams;
 use crate::solver::Solver;
@@ -284,9 +284,10 @@ impl<const N: usize> World<N> {
         Ok(())
     }
 
-    /// Drops the pairs of a body, and wakes it and what is in them.
+    /// Drops the pairs of a body, and wakes it and what it touched.
     pub(crate) fn forget_contacts_of(&mut self, slot: u32) {
-        for pair in self.pairs.iter().filter(|pair| pair.body_a == slot || pair.body_b == slot) {
+        let touches = |pair: &&Pair<N>| pair.role != PairRole::Sensor && (pair.body_a == slot || pair.body_b == slot);
+        for pair in self.pairs.iter().filter(touches) {
             let partner = if pair.body_a == slot { pair.body_b } else { pair.body_a };
             if self.bodies.at(partner).is_some_and(|body| body.kind == BodyKind::Dynamic) {
                 self.wake_requests.push(partner);

@@ -284,7 +284,11 @@ impl<const N: usize> BodyMut<'_, N> {
     /// Takes back the forces and torques that were applied for the next step, and ends the steady ones.
     pub fn clear_forces(&mut self) {
         (self.body.force, self.body.torque) = (Vector::ZERO, Bivector::ZERO);
-        (self.body.steady_force, self.body.steady_torque) = (Vector::ZERO, Bivector::ZERO);
+        if (self.body.steady_force, self.body.steady_torque) != (Vector::ZERO, Bivector::ZERO) {
+            (self.body.steady_force, self.body.steady_torque) = (Vector::ZERO, Bivector::ZERO);
+            // They may have held the body up.
+            self.wake();
+        }
     }
 
     /// Changes the momentum at once, N·s: v' = v + j/m.

@@ -1,5 +1,7 @@
 //! The definition from which a joint is made.
 
+use std::f64::consts::TAU;
+
 use hyperbody_math::{Pose, Vector, planes};
 
 use super::freedom::check_spring;
@@ -32,11 +34,12 @@ pub struct JointDef<const N: usize> {
     /// What the coupling holds: rad for gears, the sum of teeth times angles, else m. Default: as the bodies lie when the joint is
     /// added, whose definition says it from then on.
     pub phase: Option<f64>,
-    /// What is locked is held by a spring of this frequency (Hz) and damping ratio, in place of rigidly.
+    /// What is locked, and the bounds of the distance, are held by a spring of this frequency (Hz) and damping ratio, in place of
+    /// rigidly. A soft rope is elastic: it pulls where it is taut alone.
     pub softness: Option<(f64, f64)>,
-    /// Most force that a soft joint holds with, N. Default: infinite.
+    /// Most force that a soft joint holds with, N. Default: infinite, as it must be without `softness`.
     pub max_force: f64,
-    /// Most torque that a soft joint holds with, N·m. Default: infinite.
+    /// Most torque that a soft joint holds with, N·m. Default: infinite, as it must be without `softness`.
     pub max_torque: f64,
     /// Force at which the joint breaks, N. Default: infinite.
     pub break_force: f64,
@@ -153,7 +156,7 @@ impl<const N: usize> JointDef<N> {
         def
     }
 
-    /// Keeps two points from going farther apart than `length`, m.
+    /// Keeps two points from going farther apart than `length`, m. [`JointDef::softness`] makes it elastic.
     #[must_use]
     pub fn rope(
         a: impl Into<Option<BodyHandle>>,
@@ -188,8 +191,9 @@ impl<const N: usize> JointDef<N> {
         def
     }
 
-    /// Keeps the centre of a body from moving along some axes of the world, and the body from turning in some planes:
-    /// a 3D scene inside 4D locks axis w and the planes xw, yw, zw. `pose` is the body's pose, whose values are kept.
+    /// Keeps the origin of a body's frame from moving along some axes of the world, and the body from turning in some planes:
+    /// a 3D scene inside 4D locks axis w and the planes xw, yw, zw. `pose` is the body's pose, whose values are kept. To keep
+    /// another point, such as a centre of mass that lies elsewhere, give it to [`JointDef::anchors`].
     ///
     /// # Panics
     /// If an axis is not below `N`, or a plane has twice the same.
@@ -232,15 +236,14 @@ impl<const N: usize> JointDef<N> {
         self
     }
 
-    /// Sets what one plane may do; angles are positive from axis i to axis j, which must be in ascending order where
-    /// the freedom has limits, a motor or a spring.
+    /// Sets what one plane may do; angles are positive from axis i to axis j.
     ///
     /// # Panics
     /// If i = j or an axis is not below `N`.
     #[must_use]
     pub fn plane(mut self, i: usize, j: usize, freedom: Freedom) -> Self {
         assert!(i != j && i < N && j < N, "a plane needs two different axes below {N}, got ({i}, {j})");
-        self.planes[planes::index(N, i.min(j), i.max(j))] = freedom;
+        self.planes[planes::index(N, i.min(j), i.max(j))] = if i < j { freedom } else { freedom.reversed() };
         self
     }
 
@@ -278,7 +281,7 @@ impl<const N: usize> JointDef<N> {
         (self.axes.iter().filter(held).count().saturating_sub(rod), self.planes.iter().filter(held).count())
     }
 
-    /// Adds a motor to a plane, which must be free.
+    /// Adds a motor to a plane, which must be free: rad/s from axis i to axis j, and N·m.
     ///
     /// # Panics
     /// If i = j or an axis is not below `N`.
@@ -288,7 +291,7 @@ impl<const N: usize> JointDef<N> {
         self.plane(i, j, freedom)
     }
 
-    /// Limits the angle of a plane, rad, which must be free.
+    /// Limits the angle of a plane, rad from axis i to axis j, which must be free.
     ///
     /// # Panics
     /// If i = j or an axis is not below `N`.
@@ -298,7 +301,7 @@ impl<const N: usize> JointDef<N> {
         self.plane(i, j, freedom)
     }
 
-    /// Gives a plane, which must be free, a spring.
+    /// Gives a plane, which must be free, a spring, whose target counts from axis i to axis j.
     ///
     /// # Panics
     /// If i = j or an axis is not below `N`.
@@ -310,7 +313,8 @@ impl<const N: usize> JointDef<N> {
 
     fn plane_freedom(&self, i: usize, j: usize) -> Freedom {
         assert!(i != j && i < N && j < N, "a plane needs two different axes below {N}, got ({i}, {j})");
-        self.planes[planes::index(N, i.min(j), i.max(j))]
+        let freedom = self.planes[planes::index(N, i.min(j), i.max(j))];
+        if i < j { freedom } else { freedom.reversed() }
     }
 
     pub(crate) fn validate(&self) -> Result<(), WorldError> {
@@ -333,7 +337,7 @@ impl<const N: usize> JointDef<N> {
             freedom.validate(&format!("axis {}", planes::AXIS_NAMES[axis]), f64::INFINITY)?;
         }
         for (freedom, (i, j)) in self.planes.iter().zip(planes::all(N)) {
-            freedom.validate(&format!("plane {}", planes::name(i, j)), std::f64::consts::PI)?;
+            freedom.validate(&format!("plane {}", planes::name(i, j)), TAU)?;
         }
         if let Some((least, greatest)) = self.distance
             && !(least >= 0.0 && least.is_finite() && least <= greatest && greatest > 0.0)
@@ -363,6 +367,12 @@ impl<const N: usize> JointDef<N> {
             if value.is_nan() || value < 0.0 {
                 return Err(WorldError::bad_number(format!("{name} is {value}; it must be 0 or more, or infinite")));
             }
+        }
+        if self.softness.is_none() && (self.max_force.is_finite() || self.max_torque.is_finite()) {
+            return Err(WorldError::bad_number(format!(
+                "max_force is {} and max_torque {}, but the joint is rigid; give it a softness, or use break_force and break_torque",
+                self.max_force, self.max_torque
+            )));
         }
         self.groups().map(|_| ())
     }

@@ -17,9 +17,9 @@ pub struct Motor {
 pub struct Spring {
     /// Where it draws to: m along an axis, rad in a plane.
     pub target: f64,
-    /// Frequency without damping, Hz, > 0; capped at a quarter of the substep rate.
+    /// Frequency without damping, Hz, 1e-6 to 1e6; capped at a quarter of the substep rate.
     pub hz: f64,
-    /// 0 swings on (slowly losing a little to the integration), 1 comes to rest without overshoot.
+    /// 0 swings on (slowly losing a little to the integration), 1 comes to rest without overshoot; up to 1e6.
     pub damping_ratio: f64,
     /// Most that it can pull, N, or turn, N·m; may be infinite.
     pub max_force: f64,
@@ -30,7 +30,8 @@ pub struct Spring {
 pub struct Freedom {
     /// Nothing moves here.
     pub locked: bool,
-    /// Least and greatest value, m or rad. Angles count from −π to π.
+    /// Least and greatest value, m or rad. Angles lie within a turn of 0, at most a turn apart (a whole turn limits nothing), and a body
+    /// is taken to be beyond the nearer of the two.
     pub limits: Option<(f64, f64)>,
     /// A drive towards a speed.
     pub motor: Option<Motor>,
@@ -54,17 +55,32 @@ impl Freedom {
         self.has_place() || self.motor.is_some()
     }
 
-    /// `largest` bounds angles.
-    pub(crate) fn validate(&self, what: &str, largest: f64) -> Result<(), WorldError> {
+    /// The same seen from the other side: of the plane ji in place of ij.
+    pub(crate) fn reversed(self) -> Self {
+        Self {
+            limits: self.limits.map(|(low, high)| (-high, -low)),
+            motor: self.motor.map(|motor| Motor { speed: -motor.speed, ..motor }),
+            spring: self.spring.map(|spring| Spring { target: -spring.target, ..spring }),
+            ..self
+        }
+    }
+
+    /// `turn` bounds angles and how far they are apart.
+    pub(crate) fn validate(&self, what: &str, turn: f64) -> Result<(), WorldError> {
         if self.locked && self.is_driven() {
             return Err(WorldError::bad_number(format!(
                 "{what} is locked; it cannot have limits, a motor or a spring"
             )));
         }
         if let Some((low, high)) = self.limits
-            && !(low.is_finite() && high.is_finite() && low < high && low >= -largest && high <= largest)
+            && !(low.is_finite()
+                && high.is_finite()
+                && low < high
+                && low >= -turn
+                && high <= turn
+                && high - low <= turn)
         {
-            let range = if largest.is_finite() { " within −π..π" } else { "" };
+            let range = if turn.is_finite() { ", within a turn of 0 (±2π) and at most a turn apart" } else { "" };
             return Err(WorldError::bad_number(format!(
                 "the limits of {what} are {low} and {high}; they must be finite, the lower one first{range} (lock what must not move)"
             )));
@@ -91,10 +107,15 @@ impl Freedom {
 }
 
 pub(crate) fn check_spring(what: &str, hz: f64, damping_ratio: f64) -> Result<(), WorldError> {
-    if !(hz > 0.0 && hz.is_finite() && damping_ratio >= 0.0 && damping_ratio.is_finite()) {
+    if !(LEAST_HZ..=MOST_HZ).contains(&hz) || !(0.0..=MOST_DAMPING).contains(&damping_ratio) {
         return Err(WorldError::bad_number(format!(
-            "the spring of {what} has {hz} Hz and damping ratio {damping_ratio}; the frequency must be positive, the ratio 0 or more, both finite"
+            "the spring of {what} has {hz} Hz and damping ratio {damping_ratio}; the frequency must be from {LEAST_HZ} to {MOST_HZ} Hz, the ratio from 0 to {MOST_DAMPING}"
         )));
     }
     Ok(())
 }
+
+/// Frequencies of springs, Hz, and their damping ratios, within which no product of a step overflows or vanishes.
+const LEAST_HZ: f64 = 1e-6;
+const MOST_HZ: f64 = 1e6;
+const MOST_DAMPING: f64 = 1e6;

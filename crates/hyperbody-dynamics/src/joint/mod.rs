@@ -18,7 +18,9 @@
 //! | [`JointDef::weld`] | everything | 0 | 0 |
 //! | [`JointDef::slider`] | all directions and a line | 1 | 0 |
 //! | [`JointDef::distance`], [`JointDef::rope`] | the distance of two points, or its upper bound | N − 1 (N) | N(N−1)/2 |
-//! | [`JointDef::mouse`] | nothing: a spring of limited force draws a point to a target | N | N(N−1)/2 |
+//! | [`JointDef::mouse`], [`JointDef::grip`] | nothing: springs of limited force draw a point, or a frame, to a target | N | N(N−1)/2 |
+//! | [`JointDef::lock`] | any axes and planes of a single body: without axis w and its planes a body of 4D moves as in 3D | the others | the others |
+//! | [`JointDef::free`] | nothing, until axes and planes are locked one by one | those not locked | those not locked |
 //! | [`JointDef::gear`], [`JointDef::rack`] | what rolls on each other: one number of both bodies ([`Coupling`]) | together N + N(N−1)/2 − 1 | |
 //! | [`JointDef::screw`] | a line and a plane: goes along as it turns | together 1 | |
 //!
@@ -36,6 +38,8 @@
 //! | weld | 0 + 0 | 0 + 0 | 0 + 0 | 0 + 0 | 0 + 0 |
 //! | slider | 1 + 0 | 1 + 0 | 1 + 0 | 1 + 0 | 1 + 0 |
 //! | distance | 1 + 1 | 2 + 3 | 3 + 6 | 4 + 10 | 5 + 15 |
+//! | slack rope, mouse, grip | 2 + 1 | 3 + 3 | 4 + 6 | 5 + 10 | 6 + 15 |
+//! | lock of an axis and its planes | 1 + 0 | 2 + 1 | 3 + 3 | 4 + 6 | 5 + 10 |
 //!
 //! | free motions, together | 2D | 3D | 4D | 5D | 6D |
 //! |---|---|---|---|---|---|
@@ -66,4 +70,4 @@ pub use access::JointRef;
 pub use coupling::Coupling;
 pub use def::JointDef;
 pub use freedom::{Freedom, Motor, Spring};
-pub(crate) use rows::{Coordinate, Joint, Role, RowSpec, WORLD};
+pub(crate) use rows::{Bound, Coordinate, Joint, Role, RowSpec, WORLD};

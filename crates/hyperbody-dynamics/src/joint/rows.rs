@@ -1,5 +1,6 @@
 //! A joint as the world keeps it: its definition taken apart into scalar rows.
 
+use std::f64::consts::TAU;
 use std::mem::discriminant;
 
 use hyperbody_math::{Bivector, Rotation, Vector, planes};
@@ -35,12 +36,29 @@ pub(crate) enum Role {
     AtMost(f64),
     Driven(Motor),
     Sprung(Spring),
+    /// Drawn to the target of a spring from one side of it alone.
+    Elastic(Spring, Bound),
+}
+
+/// Which end of what is allowed a bound is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bound {
+    Least,
+    Greatest,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RowSpec {
     pub(crate) coordinate: Coordinate,
     pub(crate) role: Role,
+    /// Angles count from half a turn below this to half a turn above, rad: what lies beyond limits is beyond the nearer one.
+    pub(crate) middle: f64,
+}
+
+impl RowSpec {
+    pub(crate) const fn new(coordinate: Coordinate, role: Role) -> Self {
+        Self { coordinate, role, middle: 0.0 }
+    }
 }
 
 /// A joint as the world keeps it.
@@ -63,6 +81,8 @@ pub(crate) struct Joint<const N: usize> {
     /// Impulse on `b` over the last step, world axes, N·s, and its turning part about the anchor, N·m·s.
     pub(crate) step_impulse: Vector<N>,
     pub(crate) step_twist: Bivector<N>,
+    /// Whether a motor or a spring of it was moving something at the end of the step, however slowly.
+    pub(crate) creeps: bool,
 }
 
 impl<const N: usize> Joint<N> {
@@ -87,12 +107,14 @@ impl<const N: usize> Joint<N> {
             groups,
             step_impulse: Vector::ZERO,
             step_twist: Bivector::ZERO,
+            creeps: false,
             def,
         }
     }
 
     /// Starts from the impulses of what it was, where a row does the same as one did.
     pub(crate) fn go_on_from(&mut self, old: &Self) {
+        (self.step_impulse, self.step_twist) = (old.step_impulse, old.step_twist);
         if self.def.coupling != old.def.coupling || self.groups != old.groups {
             return;
         }
@@ -106,6 +128,12 @@ impl<const N: usize> Joint<N> {
         }
     }
 
+    /// Forgets what it bore.
+    pub(crate) fn let_go(&mut self) {
+        self.impulses.fill([0.0; 2]);
+        (self.step_impulse, self.step_twist) = (Vector::ZERO, Bivector::ZERO);
+    }
+
     /// Attitudes of the frames on their bodies.
     pub(crate) fn frames(&self) -> (Rotation<N>, Rotation<N>) {
         (self.def.frame_a.rotation, self.def.frame_b.rotation)
@@ -116,7 +144,7 @@ impl<const N: usize> Joint<N> {
 fn held_rows<const N: usize>(def: &JointDef<N>) -> Vec<RowSpec> {
     let all = def.axes.iter().all(|axis| axis.locked);
     let mut rows = Vec::new();
-    let mut hold = |coordinate, value| rows.push(RowSpec { coordinate, role: Role::Held(value) });
+    let mut hold = |coordinate, value| rows.push(RowSpec::new(coordinate, Role::Held(value)));
     for axis in (0..N).filter(|&axis| def.axes[axis].locked) {
         hold(if all { Coordinate::Point(axis as u8) } else { Coordinate::Slide(axis as u8) }, 0.0);
     }
@@ -143,21 +171,34 @@ fn other_rows<const N: usize>(def: &JointDef<N>) -> Vec<RowSpec> {
         planes::all(N).zip(&def.planes).map(|((i, j), freedom)| (Coordinate::Angle(i as u8, j as u8), freedom));
     let mut rows = Vec::new();
     for (coordinate, freedom) in axes.chain(planes) {
-        let mut add = |role| rows.push(RowSpec { coordinate, role });
-        freedom.spring.into_iter().for_each(|spring| add(Role::Sprung(spring)));
-        freedom.motor.into_iter().for_each(|motor| add(Role::Driven(motor)));
-        if let Some((low, high)) = freedom.limits {
-            add(Role::AtLeast(low));
-            add(Role::AtMost(high));
+        let angle = matches!(coordinate, Coordinate::Angle(..));
+        let mut add = |role, middle| rows.push(RowSpec { coordinate, role, middle });
+        freedom.spring.into_iter().for_each(|spring| add(Role::Sprung(spring), spring.target));
+        freedom.motor.into_iter().for_each(|motor| add(Role::Driven(motor), 0.0));
+        if let Some((low, high)) = freedom.limits.filter(|(low, high)| !angle || high - low < WHOLE_TURN) {
+            add(Role::AtLeast(low), 0.5 * (low + high));
+            add(Role::AtMost(high), 0.5 * (low + high));
         }
     }
-    if let Some((least, greatest)) = def.distance.filter(|(least, greatest)| least < greatest) {
-        if least > 0.0 {
-            rows.push(RowSpec { coordinate: Coordinate::Length, role: Role::AtLeast(least) });
-        }
-        if greatest.is_finite() {
-            rows.push(RowSpec { coordinate: Coordinate::Length, role: Role::AtMost(greatest) });
-        }
-    }
+    rows.extend(
+        def.distance.filter(|(least, greatest)| least < greatest).into_iter().flat_map(|range| bounds(def, range)),
+    );
     rows
+}
+
+/// Limits of an angle that are farther apart, rad, limit nothing.
+const WHOLE_TURN: f64 = TAU * (1.0 - 1e-9);
+
+/// The least and the greatest distance.
+fn bounds<const N: usize>(def: &JointDef<N>, (least, greatest): (f64, f64)) -> impl Iterator<Item = RowSpec> {
+    let ends = [(least, Bound::Least, least > 0.0), (greatest, Bound::Greatest, greatest.is_finite())];
+    let (softness, max_force) = (def.softness, def.max_force);
+    ends.into_iter().filter(|(.., binds)| *binds).map(move |(target, bound, _)| {
+        let role = match (softness, bound) {
+            (Some((hz, damping_ratio)), bound) => Role::Elastic(Spring { target, hz, damping_ratio, max_force }, bound),
+            (None, Bound::Least) => Role::AtLeast(target),
+            (None, Bound::Greatest) => Role::AtMost(target),
+        };
+        RowSpec::new(Coordinate::Length, role)
+    })
 }

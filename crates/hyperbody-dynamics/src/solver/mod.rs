@@ -366,7 +366,7 @@ impl<const N: usize> Solver<N> {
                 }
             }
         }
-        self.joints.store(input.joints);
+        self.joints.store(input.joints, input.dt / f64::from(input.substeps));
     }
 }
 

@@ -49,7 +49,7 @@ where
         JointKind::Weld => JointDef::weld(a, b, frame_a, frame_b),
         JointKind::Hinge { plane: name } => {
             let (i, j) = plane::<N>(name, &format!("{path}.plane"))?;
-            JointDef::hinge(a, b, frame_a, frame_b, (i, j)).plane(i.min(j), i.max(j), freedom(joint, i > j))
+            JointDef::hinge(a, b, frame_a, frame_b, (i, j)).plane(i, j, freedom(joint))
         }
         JointKind::Axle { keeps } => {
             let keeps = *keeps as usize;
@@ -61,7 +61,7 @@ where
         }
         JointKind::Slider { along } => {
             let axis = axis(N, along, &path)?;
-            JointDef::slider(a, b, frame_a, frame_b, axis).axis(axis, freedom(joint, false))
+            JointDef::slider(a, b, frame_a, frame_b, axis).axis(axis, freedom(joint))
         }
         JointKind::Distance { length } => JointDef::distance(a, b, from, to, *length),
         JointKind::Rope { length } => JointDef::rope(a, b, from, to, *length),
@@ -84,7 +84,7 @@ where
         JointKind::Motor { plane: name } => {
             let (i, j) = plane::<N>(name, &format!("{path}.plane"))?;
             let free = JointDef::free(a, b).frames(frame_a, frame_b);
-            free.plane(i.min(j), i.max(j), freedom(joint, i > j)).collide(true)
+            free.plane(i, j, freedom(joint)).collide(true)
         }
     };
     def.softness = joint.softness.map(|[hz, ratio]| (hz, ratio));
@@ -104,17 +104,16 @@ fn axis(dimension: usize, name: &str, path: &str) -> Result<usize> {
     })
 }
 
-/// The drives of what is free; `reversed` where the plane is named against the order of its axes.
-fn freedom(joint: &Joint, reversed: bool) -> Freedom {
-    let sign = if reversed { -1.0 } else { 1.0 };
+/// The drives of what is free.
+fn freedom(joint: &Joint) -> Freedom {
     let mut freedom = Freedom::FREE;
     freedom.limits = joint.limits.map(|limits| {
         let [least, greatest] = limits.range.map(|value| if limits.degrees { value.to_radians() } else { value });
-        if reversed { (-greatest, -least) } else { (least, greatest) }
+        (least, greatest)
     });
-    freedom.motor = joint.motor.map(|motor| Motor { speed: sign * motor.speed, max_force: motor.max_force });
+    freedom.motor = joint.motor.map(|motor| Motor { speed: motor.speed, max_force: motor.max_force });
     freedom.spring = joint.spring.map(|spring| Spring {
-        target: sign * spring.target,
+        target: spring.target,
         hz: spring.hz,
         damping_ratio: spring.damping_ratio,
         max_force: spring.max_force.unwrap_or(f64::INFINITY),

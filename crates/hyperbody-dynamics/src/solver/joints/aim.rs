@@ -1,10 +1,8 @@
 //! What each row of a joint wants: the error that its impulse should remove, and the impulses that it may have.
 
-use std::f64::consts::TAU;
-
 use super::give::drawn_back;
 use super::{JointRows, Pass, Row};
-use crate::joint::{Coordinate, Role};
+use crate::joint::{Bound, Role};
 use crate::solver::softness::Softness;
 
 /// Fastest that anything beyond its place is pushed back, m/s or rad/s.
@@ -29,10 +27,18 @@ impl<const N: usize> Row<N> {
                 Some(-self.towards_limit(-rate, greatest - self.value, -1.0, pass, h, joint))
             }
             (Role::Driven(motor), _) => Some(rate - motor.speed + self.compliance * impulse),
-            (Role::Sprung(_), Pass::Settle) => None,
+            (Role::Sprung(_) | Role::Elastic(..), Pass::Settle) => None,
             (Role::Sprung(spring), Pass::Move) => {
                 let soft = Softness::new(spring.hz, spring.damping_ratio, h);
-                Some(rate + self.curve + soft.bias_rate * self.off(spring.target) + self.compliance * impulse)
+                Some(rate + self.curve + soft.bias_rate * (self.value - spring.target) + self.compliance * impulse)
+            }
+            (Role::Elastic(spring, bound), Pass::Move) => {
+                let soft = Softness::new(spring.hz, spring.damping_ratio, h);
+                let off = self.value - spring.target;
+                let taut = if bound == Bound::Greatest { off > 0.0 } else { off < 0.0 };
+                // What is slack is not damped: it feels the part of the substep alone in which it comes to be taut.
+                let back = if taut { soft.bias_rate } else { 1.0 / h } * off;
+                Some(rate + self.curve + back + self.compliance * impulse)
             }
         }
     }
@@ -46,6 +52,8 @@ impl<const N: usize> Row<N> {
             Role::AtMost(_) => (f64::NEG_INFINITY, 0.0),
             Role::Driven(motor) => either_way(motor.max_force),
             Role::Sprung(spring) => either_way(spring.max_force),
+            Role::Elastic(spring, Bound::Least) => (0.0, spring.max_force * h),
+            Role::Elastic(spring, Bound::Greatest) => (-spring.max_force * h, 0.0),
         }
     }
 
@@ -71,12 +79,6 @@ impl<const N: usize> Row<N> {
         }
     }
 
-    /// How far the coordinate is from a target; angles the short way round.
-    fn off(&self, target: f64) -> f64 {
-        let off = self.value - target;
-        if matches!(self.spec.coordinate, Coordinate::Angle(..)) { off - TAU * (off / TAU).round() } else { off }
-    }
-
     /// What the row gives way beside its response: a share of `response`, which of springs is that of the joint with its held rows holding.
     /// `driven` tells whether a motor drives the same coordinate.
     pub(super) fn compliance(&self, response: f64, joint: &JointRows<N>, driven: bool, h: f64) -> f64 {
@@ -85,7 +87,9 @@ impl<const N: usize> Row<N> {
             Role::AtLeast(_) | Role::AtMost(_) if driven => LIMIT_COMPLIANCE * response,
             Role::AtLeast(_) | Role::AtMost(_) => joint.rigid.compliance() * response,
             Role::Driven(_) => MOTOR_COMPLIANCE * response,
-            Role::Sprung(spring) => Softness::new(spring.hz, spring.damping_ratio, h).compliance() * response,
+            Role::Sprung(spring) | Role::Elastic(spring, _) => {
+                Softness::new(spring.hz, spring.damping_ratio, h).compliance() * response
+            }
         }
     }
 }

@@ -158,7 +158,7 @@ mod tests {
     use crate::solver::softness::Softness;
 
     const N: usize = 3;
-    const SPEC: RowSpec = RowSpec { coordinate: Coordinate::Length, role: Role::Held(0.0) };
+    const SPEC: RowSpec = RowSpec::new(Coordinate::Length, Role::Held(0.0));
 
     fn random(seed: &mut u64) -> f64 {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -247,6 +247,7 @@ mod tests {
                     rigid: Softness::RIGID,
                     is_soft: false,
                     exact: true,
+                    meets_midway: false,
                     max_impulse: 0.0,
                     max_twist: 0.0,
                     step_impulse: Vector::ZERO,

@@ -147,6 +147,9 @@ impl<const N: usize> Geometry<N> {
     pub(super) fn fill(&self, row: &mut Row<N>, a: &Place<N>, b: &Place<N>, bodies: &[SolverBody<N>]) {
         let (body_a, body_b) = (&bodies[a.row], &bodies[b.row]);
         row.value = self.value(row.spec.coordinate);
+        if let Coordinate::Angle(..) = row.spec.coordinate {
+            row.value -= TAU * ((row.value - row.spec.middle) / TAU).round();
+        }
         match row.spec.coordinate {
             Coordinate::Turn(i, j) | Coordinate::Angle(i, j) => {
                 let plane = Bivector::wedge(self.axes.column(usize::from(i)), self.axes.column(usize::from(j)));

@@ -3,14 +3,23 @@
 use super::aim::PUSH_BACK;
 use super::geometry::response;
 use super::{JointRows, Row, block};
-use crate::joint::{Coordinate, Role};
+use crate::joint::{Coordinate, Role, Spring};
 use crate::solver::bodies::{Sizes, SolverBody};
+use crate::solver::softness::Softness;
 
 /// Most rows of a joint that are held: all of 6D, a rod and a coupling.
 const MOST_HELD: usize = 6 + 15 + 2;
 
 /// Least share of a spring's response that its joint can leave it.
 const LEAST_FREE: f64 = 1e-6;
+
+/// The part of its speed below which a motor stands still.
+const STALLED: f64 = 0.1;
+
+/// What a spring moves has come to its place where it would go no farther, m or rad, in this time, s, and in that in which the spring is
+/// damped.
+const LEAST_WAY: f64 = 1e-3;
+const REST_TIME: f64 = 0.5;
 
 /// The part of its length by which a rigid rod is drawn back at most. Two rods that contradict each other pull as hard as they are
 /// off; with k = m ω² a pull of k·ΔL lets what hangs between them swing sideways at √(2 k ΔL/(m L)), which is faster than substeps can follow
@@ -46,7 +55,7 @@ impl<const N: usize> JointRows<N> {
                 Role::AtLeast(_) | Role::AtMost(_) if angle => self.response_while_held(own, index),
                 // Not by levers, or what hangs on a long arm would give way far too much.
                 Role::Held(_) | Role::AtLeast(_) | Role::AtMost(_) => of_masses,
-                Role::Sprung(_) => self.response_while_held(own, index),
+                Role::Sprung(_) | Role::Elastic(..) => self.response_while_held(own, index),
                 Role::Driven(_) => row.response,
             };
             rows[index].compliance = row.compliance(response, self, driven, h);
@@ -102,6 +111,19 @@ impl<const N: usize> JointRows<N> {
         let given: f64 = pull.iter().zip(&answer).map(|(pull, answer)| pull * answer).sum();
         let whole = own[block::len(row) + row];
         (whole - given).max(LEAST_FREE * whole)
+    }
+
+    /// Whether a row drives something on, however slowly.
+    pub(super) fn creeps(&self, row: &Row<N>, h: f64) -> bool {
+        let soft = |spring: &Spring| Softness::new(spring.hz, spring.damping_ratio, h);
+        let spring = match &row.spec.role {
+            Role::Driven(motor) => return motor.speed != 0.0 && row.rate.abs() > STALLED * motor.speed.abs(),
+            Role::Sprung(spring) => soft(spring),
+            Role::Elastic(spring, _) if row.impulse != 0.0 => soft(spring),
+            Role::Held(_) if self.is_soft => self.soft,
+            _ => return false,
+        };
+        row.rate.abs() * (REST_TIME + 1.0 / spring.bias_rate) > LEAST_WAY
     }
 
     /// Keeps a soft joint within its strength, whatever the direction.

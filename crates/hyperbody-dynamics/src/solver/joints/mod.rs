@@ -91,6 +91,8 @@ struct Row<const N: usize> {
     acceleration: f64,
     /// The coordinate, m or rad.
     value: f64,
+    /// Its rate when it was last looked at, impulses included.
+    rate: f64,
     /// What it changes beyond its tangent within the substep, over h.
     curve: f64,
     /// What an impulse changes the rate by, 1/kg or 1/(kg·m²).
@@ -137,6 +139,8 @@ struct JointRows<const N: usize> {
     is_soft: bool,
     /// Whether it is solved together with all joints around it.
     exact: bool,
+    /// Whether both bodies move: what keeps a point on a point then acts midway between them.
+    meets_midway: bool,
     /// Most impulse a substep of soft joints, N·s and N·m·s.
     max_impulse: f64,
     max_twist: f64,
@@ -261,7 +265,7 @@ impl<const N: usize> Joints<N> {
     }
 
     /// Hands the impulses back to the joints of the world.
-    pub(crate) fn store(&self, joints: &mut Arena<Joint<N>, crate::JointHandle>) {
+    pub(crate) fn store(&self, joints: &mut Arena<Joint<N>, crate::JointHandle>, h: f64) {
         for rows in &self.joints {
             let Some(joint) = joints.at_mut(rows.slot) else { continue };
             for (stored, row) in joint.impulses.iter_mut().zip(&self.rows[rows.first..rows.end]) {
@@ -269,12 +273,11 @@ impl<const N: usize> Joints<N> {
             }
             joint.step_impulse = rows.step_impulse;
             joint.step_twist = rows.step_twist;
+            joint.creeps = self.rows[rows.first..rows.end].iter().any(|row| rows.creeps(row, h));
             let sound = joint.impulses.iter().flatten().all(|impulse| impulse.is_finite());
             if !(sound && rows.step_impulse.is_finite() && rows.step_twist.is_finite()) {
                 // When the body that is no number comes back, nothing of it may start the next step.
-                joint.impulses.iter_mut().for_each(|impulse| *impulse = [0.0; 2]);
-                joint.step_impulse = Vector::ZERO;
-                joint.step_twist = Bivector::ZERO;
+                joint.let_go();
             }
         }
     }
@@ -290,6 +293,7 @@ impl<const N: usize> Row<N> {
             base: 0.0,
             acceleration: 0.0,
             value: 0.0,
+            rate: 0.0,
             curve: 0.0,
             response: 0.0,
             compliance: 0.0,
@@ -335,6 +339,7 @@ impl<const N: usize> JointRows<N> {
             rigid: Softness::RIGID,
             is_soft: def.softness.is_some(),
             exact: false,
+            meets_midway: body_b.is_moving() && body_a.is_some_and(Body::is_moving),
             max_impulse: def.max_force * h,
             max_twist: def.max_torque * h,
             step_impulse: Vector::ZERO,

@@ -1,6 +1,6 @@
 //! The passes over joints.
 
-use hyperbody_math::Bivector;
+use hyperbody_math::{Bivector, Vector};
 
 use super::ahead::{CLOSER, FORESEEN, LOOKS};
 use super::cluster::Cluster;
@@ -157,7 +157,8 @@ impl<const N: usize> Joints<N> {
                 joint.draw_in(rows, &self.own[joint.own..]);
             }
             for (unknown, row) in unknowns.iter_mut().zip(rows) {
-                let error = row.error(row.rate(a, b, moving), pass, h, joint);
+                row.rate = row.rate(a, b, moving);
+                let error = row.error(row.rate, pass, h, joint);
                 let engaged = error.is_some_and(|error| !row.stopped && row.engages(error, h));
                 changed |= engaged != row.engaged;
                 row.engaged = engaged;
@@ -217,6 +218,7 @@ impl<const N: usize> Joints<N> {
         for joint in &mut self.joints {
             let rows = &self.rows[joint.first..joint.end];
             let mut twist = Bivector::ZERO;
+            let (mut gap, mut pull) = (Vector::ZERO, Vector::ZERO);
             let mut turned = false;
             for row in rows {
                 let impulse = row.impulse + row.settle;
@@ -226,10 +228,16 @@ impl<const N: usize> Joints<N> {
                     twist.set(i, j, twist.get(i, j) + impulse);
                     turned = true;
                 }
+                if let Coordinate::Point(axis) = row.spec.coordinate {
+                    (gap[usize::from(axis)], pull[usize::from(axis)]) = (row.value, impulse);
+                }
                 if let (Coordinate::Coupled, Some((coupling, _))) = (row.spec.coordinate, &joint.coupling) {
                     let geometry = joint.geometry(&self.places[joint.a].now, &self.places[joint.b].now, rows);
                     joint.step_twist += geometry.mesh(coupling).about(geometry.gap) * impulse;
                 }
+            }
+            if joint.meets_midway {
+                joint.step_twist += Bivector::wedge(gap * -0.5, pull);
             }
             if turned {
                 let in_world = joint.axes * twist.to_matrix() * joint.axes.transpose();

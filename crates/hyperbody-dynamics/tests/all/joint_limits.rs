@@ -1,0 +1,141 @@
+//! Limits of angles wherever they lie, planes named either way round, and elastic ropes.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::common::{GRAVITY, assert_close, ball, cuboid, down, in_all_dimensions, run, world};
+use hyperbody_dynamics::{BodyDef, BodyHandle, JointDef, Spring, World, WorldDef, WorldErrorKind};
+use hyperbody_math::{Bivector, Pose, Vector};
+
+in_all_dimensions! {
+    limits_hold_wherever_they_lie: check_limits;
+    planes_may_be_named_either_way_round: check_order;
+    an_elastic_rope_is_a_spring_while_it_is_taut: check_elastic_rope;
+    a_joint_between_moving_bodies_reports_the_torque_about_the_second_anchor: check_torque;
+}
+
+fn spun<const N: usize>(rate: f64, joint: impl Fn(JointDef<N>) -> JointDef<N>) -> (World<N>, BodyHandle) {
+    let mut world = world(Vector::<N>::ZERO);
+    let mut spin = Bivector::ZERO;
+    spin.set(0, 1, rate);
+    let shape = cuboid(Vector::from_fn(|i| 0.2 + 0.1 * i as f64));
+    let body = world.add_body(BodyDef::new(shape).angular_velocity(spin)).unwrap();
+    world.add_joint(joint(JointDef::hinge(None, body, Pose::IDENTITY, Pose::IDENTITY, (0, 1)))).unwrap();
+    (world, body)
+}
+
+/// The least and the greatest angle, counted on through whole turns, that a body comes to which was set spinning.
+fn reached<const N: usize>(rate: f64, joint: impl Fn(JointDef<N>) -> JointDef<N>) -> (f64, f64) {
+    let (mut world, body) = spun(rate, joint);
+    let (mut angle, mut least, mut greatest) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for _ in 0..600 {
+        world.step();
+        let now = world.body(body).unwrap().rotation().log().get(0, 1);
+        angle += (now - angle) - TAU * ((now - angle) / TAU).round();
+        (least, greatest) = (least.min(angle), greatest.max(angle));
+    }
+    (least, greatest)
+}
+
+fn check_limits<const N: usize>() {
+    let degrees = [(0.0, 180.0), (-180.0, 30.0), (-90.0, 180.0), (0.0, 270.0), (-300.0, 10.0), (-170.0, 170.0)];
+    for (low, high) in degrees.map(|(low, high)| (f64::to_radians(low), f64::to_radians(high))) {
+        let (_, greatest) = reached::<N>(2.0, |hinge| hinge.angle_limits(0, 1, low, high));
+        assert!((greatest - high).abs() < 5e-3, "{greatest} at the greatest of {low}..{high} in {N}D");
+        let (least, _) = reached::<N>(-2.0, |hinge| hinge.angle_limits(0, 1, low, high));
+        assert!((least - low).abs() < 5e-3, "{least} at the least of {low}..{high} in {N}D");
+    }
+    let (_, greatest) = reached::<N>(2.0, |hinge| hinge.angle_limits(0, 1, -PI, PI));
+    assert!(greatest > 3.0 * PI, "limits a whole turn apart limit nothing, but stop at {greatest} in {N}D");
+    let (mut world, body) = spun::<N>(0.0, |hinge| hinge);
+    let hinge = || JointDef::<N>::hinge(None, body, Pose::IDENTITY, Pose::IDENTITY, (0, 1));
+    for (low, high) in [(-7.0, 0.0), (0.0, 7.0), (-4.0, 4.0), (1.0, 1.0), (f64::NAN, 1.0)] {
+        let error = world.add_joint(hinge().angle_limits(0, 1, low, high)).unwrap_err();
+        assert_eq!(error.kind(), WorldErrorKind::BadNumber, "{low}..{high}");
+    }
+}
+
+/// What acts from the second axis to the first is what acts from the first to the second with the other sign.
+fn check_order<const N: usize>() {
+    let after = |joint: fn(JointDef<N>) -> JointDef<N>| {
+        let (mut world, body) = spun::<N>(0.0, joint);
+        run(&mut world, 1.0);
+        world.body(body).unwrap().rotation().log().get(0, 1)
+    };
+    let one = after(|hinge| hinge.motor(0, 1, 1.0, 100.0).angle_limits(0, 1, -0.3, 0.4));
+    let other = after(|hinge| hinge.motor(1, 0, -1.0, 100.0).angle_limits(1, 0, -0.4, 0.3));
+    assert_eq!(one.to_bits(), other.to_bits());
+    assert_close("the motor's limit", one, 0.4, 0.01);
+    assert_close("the other way", after(|hinge| hinge.motor(1, 0, 0.5, 100.0)), -0.5, 0.02);
+    let sprung =
+        after(|hinge| hinge.angle_spring(1, 0, Spring { target: -2.0, hz: 3.0, damping_ratio: 1.0, max_force: 1e9 }));
+    assert_close("the spring's target", sprung, 2.0, 0.01);
+}
+
+fn check_elastic_rope<const N: usize>() {
+    let (length, hz) = (1.0, 1.0);
+    let stretch = GRAVITY / (2.0 * PI * hz).powi(2);
+    let hang = |damping_ratio, max_force| {
+        let def = WorldDef { gravity: down::<N>(), sleeping: false, dt: 1.0 / 960.0, ..WorldDef::default() };
+        let mut world = World::new(def).unwrap();
+        let bob = world.add_body(BodyDef::new(ball(0.1)).mass(3.0).position(Vector::unit(1) * -0.5)).unwrap();
+        let mut rope = JointDef::rope(None, bob, Vector::ZERO, Vector::ZERO, length).softness(hz, damping_ratio);
+        rope.max_force = max_force;
+        world.add_joint(rope).unwrap();
+        (world, bob)
+    };
+    let (mut world, bob) = hang(0.3, f64::INFINITY);
+    run(&mut world, 15.0);
+    assert_close("hangs at", -world.body(bob).unwrap().position()[1], length + stretch, 1e-3);
+
+    // Dropped from half its length: falls freely until it is taut, then swings as a spring does, and comes back to where it was.
+    let (mut world, bob) = hang(0.0, f64::INFINITY);
+    let speed_sq = 2.0 * GRAVITY * 0.5;
+    let omega = 2.0 * PI * hz;
+    let deepest = length + stretch + (stretch * stretch + speed_sq / (omega * omega)).sqrt();
+    let (mut lowest, mut back) = (0.0_f64, f64::NEG_INFINITY);
+    for _ in 0..1920 {
+        world.step();
+        let y = world.body(bob).unwrap().position()[1];
+        if y < lowest {
+            (lowest, back) = (y, f64::NEG_INFINITY);
+        }
+        back = back.max(y);
+    }
+    assert_close("the lowest point", -lowest, deepest, 0.002);
+    assert_close("the height that it comes back to", -back, 0.5, 0.02);
+
+    // Too weak for what hangs on it.
+    let (mut world, bob) = hang(1.0, 2.0 * GRAVITY);
+    run(&mut world, 4.0);
+    let taut = (2.0_f64 * 0.5 / GRAVITY).sqrt();
+    let (speed, left) = (GRAVITY * taut, 4.0 - taut);
+    let least = length + speed * left + 0.5 * (GRAVITY / 3.0) * left * left;
+    assert_close("what a weak rope lets fall", -world.body(bob).unwrap().position()[1], least, 0.01);
+
+    let mut stiff = JointDef::rope(None, bob, Vector::ZERO, Vector::ZERO, length);
+    stiff.max_force = 1.0;
+    let error = world.add_joint(stiff).unwrap_err();
+    assert!(error.to_string().contains("softness"), "{error}");
+}
+
+/// The change of b's angular momentum about its own centre is the arm's and what is reported beside it.
+fn check_torque<const N: usize>() {
+    let def = WorldDef { gravity: Vector::<N>::ZERO, dt: 1.0 / 960.0, ..WorldDef::default() };
+    let mut world = World::new(def).unwrap();
+    let shape = || cuboid(Vector::from_fn(|i| 0.2 + 0.1 * i as f64));
+    let a = world.add_body(BodyDef::new(shape())).unwrap();
+    let at = Vector::from_fn(|i| 0.5 + 0.1 * i as f64);
+    let b = world.add_body(BodyDef::new(shape()).position(at).velocity(Vector::unit(0) * 3.0)).unwrap();
+    let (on_a, on_b) = (Vector::unit(0) * 0.3, Vector::unit(1) * -0.4);
+    let joint = world.add_joint(JointDef::ball(a, b, on_a, on_b).softness(0.5, 2.0)).unwrap();
+    run(&mut world, 0.01);
+    let before = world.body(b).unwrap().angular_momentum();
+    world.step();
+    let (body, joint) = (world.body(b).unwrap(), world.joint(joint).unwrap());
+    let arm = body.rotation().rotate(on_b);
+    let told = Bivector::wedge(arm, joint.impulse()) + joint.angular_impulse();
+    let felt = body.angular_momentum() - before;
+    let off = (told - felt).norm();
+    assert!(off < 0.01 * felt.norm(), "told {told:?}, felt {felt:?} in {N}D");
+    assert!(joint.angular_impulse().norm() > 0.1 * felt.norm(), "the gap counts in {N}D");
+}
