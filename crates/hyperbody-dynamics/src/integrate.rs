@@ -6,7 +6,6 @@
 use hyperbody_math::{Bivector, Rotation, Vector};
 
 use crate::body::Body;
-use crate::joint::Joint;
 use crate::pairs::Pair;
 use crate::solver::bodies::{Sizes, SolverBody};
 use crate::vetting::limit_speed;
@@ -55,11 +54,11 @@ impl<const N: usize> World<N> {
             }
         }
         // Their impulses are no numbers either.
-        for body in &self.quarantined[sound..] {
-            let own = |pair: &&mut Pair<N>| pair.body_a == body.index || pair.body_b == body.index;
+        for body in sound..self.quarantined.len() {
+            let slot = self.quarantined[body].index;
+            let own = |pair: &&mut Pair<N>| pair.body_a == slot || pair.body_b == slot;
             self.pairs.iter_mut().filter(own).for_each(Pair::forget);
-            let joints = self.bodies.get(*body).map_or(&[][..], |body| &body.joints);
-            joints.iter().for_each(|&joint| self.joints.at_mut(joint).into_iter().for_each(Joint::let_go));
+            self.let_go_of_joints(slot);
         }
         for body in self.bodies.values_mut().filter(|body| body.kind == BodyKind::Kinematic && !body.quarantined) {
             if let Some((centre, rotation)) = body.led_to.take() {

@@ -26,6 +26,7 @@ impl<const N: usize> World<N> {
             let last = (if in_bounds(body.centre) { body.centre } else { Vector::ZERO }, body.rotation);
             body.quarantine(last);
             self.wake_requests.push(slot);
+            self.let_go_of_joints(slot);
             if let Some(handle) = self.bodies.handle_at(slot) {
                 self.quarantined.push(handle);
             }

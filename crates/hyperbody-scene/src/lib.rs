@@ -43,7 +43,7 @@ pub use error::{ErrorKind, SceneError, meant, nearest};
 pub use gallery::{BUILT_IN, BuiltIn, built_in};
 pub use jitter::JITTER;
 pub use model::{
-    Angle, Body, BodyKind, DEFAULT_DT, DEFAULT_SUBSTEPS, Factor, Joint, JointKind, JointLimits, JointMotor,
+    Angle, Body, BodyKind, DEFAULT_DT, DEFAULT_SUBSTEPS, Factor, Joint, JointCone, JointKind, JointLimits, JointMotor,
     JointSpring, NamedMaterial, Part, PolytopeSpec, RotationSpec, Scene, ShapeSpec, Size, Turn, default_gravity,
 };
 pub use read::{FORMAT, MAX_FILE_BYTES, VERSION};

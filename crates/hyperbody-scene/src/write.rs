@@ -173,17 +173,19 @@ fn part(part: &Part) -> Json {
     Json::Object(fields)
 }
 
+fn angle(angle: Angle) -> (String, Json) {
+    match angle {
+        Angle::Degrees(angle) => field("angle_deg", Json::Number(angle)),
+        Angle::Radians(angle) => field("angle", Json::Number(angle)),
+    }
+}
+
 fn rotation(rotation: &RotationSpec) -> Option<Json> {
     match rotation {
         RotationSpec::Turns(turns) if turns.is_empty() => None,
         RotationSpec::Turns(turns) => {
-            let turns = turns.iter().map(|turn| {
-                let angle = match turn.angle {
-                    Angle::Degrees(angle) => field("angle_deg", Json::Number(angle)),
-                    Angle::Radians(angle) => field("angle", Json::Number(angle)),
-                };
-                Json::Object(vec![field("plane", text(&turn.plane)), angle])
-            });
+            let turns =
+                turns.iter().map(|turn| Json::Object(vec![field("plane", text(&turn.plane)), angle(turn.angle)]));
             Some(Json::List(turns.collect()))
         }
         RotationSpec::Rotor(rotor) => Some(single("rotor", numbers(rotor))),
@@ -223,6 +225,9 @@ fn joint(joint: &Joint) -> Json {
     add("rotation_b", rotation(&joint.rotation_b));
     if let Some(limits) = &joint.limits {
         add(if limits.degrees { "limits_deg" } else { "limits" }, Some(numbers(&limits.range)));
+    }
+    if let Some(cone) = &joint.cone {
+        add("cone", Some(Json::Object(vec![field("along", text(&cone.along)), angle(cone.angle)])));
     }
     if let Some(motor) = &joint.motor {
         let drive = [("speed", motor.speed), ("max_force", motor.max_force)];

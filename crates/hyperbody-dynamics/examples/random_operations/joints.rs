@@ -21,7 +21,7 @@ impl Dice {
         let (frame_a, frame_b) = self.frames(&poses);
         let (p, q) = (frame_a.translation, frame_b.translation);
         let (i, j) = (0, 1 + self.below(N - 1));
-        let def = match self.below(17) {
+        let def = match self.below(18) {
             0 => JointDef::ball(a, b, p, q),
             1 => JointDef::hinge(a, b, frame_a, frame_b, (i, j)).angle_limits(i, j, -0.5, 0.7),
             2 => JointDef::hinge(a, b, frame_a, frame_b, (i, j)).motor(i, j, 3.0, self.strength()),
@@ -42,8 +42,9 @@ impl Dice {
                 JointDef::screw(a, b, frame_a, frame_b, (i, j), along, self.between(0.05, 0.5))
             }
             13 if a.is_none() => JointDef::mouse(b, q, self.vector::<N>(2.0), 50.0),
-            14 if a.is_none() => JointDef::grip(b, frame_b, frame_a, self.strength(), self.strength()),
-            15 if a.is_none() => JointDef::lock(b, poses[1], &[self.below(N)], &[]),
+            15 if a.is_none() => JointDef::grip(b, frame_b, frame_a, self.strength(), self.strength()),
+            14 => JointDef::ball(a, b, p, q).cone(self.below(N), self.between(0.1, 3.0)),
+            16 if a.is_none() => JointDef::lock(b, poses[1], &[self.below(N)], &[]),
             _ => JointDef::axle(a, b, frame_a, frame_b, 0).motor(i, j, -2.0, self.strength()),
         };
         def.collide(self.below(3) == 0)

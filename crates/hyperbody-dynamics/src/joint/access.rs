@@ -229,6 +229,12 @@ impl<const N: usize> World<N> {
         }
     }
 
+    /// Joints of a body in quarantine bear nothing.
+    pub(crate) fn let_go_of_joints(&mut self, slot: u32) {
+        let joints = self.bodies.at(slot).map_or(&[][..], |body| &body.joints);
+        joints.iter().for_each(|&joint| self.joints.at_mut(joint).into_iter().for_each(Joint::let_go));
+    }
+
     fn wake_ends(&mut self, handle: JointHandle) {
         let Some(joint) = self.joints.get(handle) else { return };
         for slot in [joint.body_a, joint.body_b] {

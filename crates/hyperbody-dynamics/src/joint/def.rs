@@ -1,6 +1,6 @@
 //! The definition from which a joint is made.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use hyperbody_math::{Pose, Vector, planes};
 
@@ -27,6 +27,9 @@ pub struct JointDef<const N: usize> {
     pub axes: [Freedom; N],
     /// What `b` may do in each plane of the first frame, lexicographic order.
     pub planes: Vec<Freedom>,
+    /// An axis of the frames, and the largest angle, rad, from the first frame's to the second's: a cone within which it may point. Turns
+    /// that leave the axis where it is stay free.
+    pub cone: Option<(u8, f64)>,
     /// Least and greatest distance of the anchors, m; the greatest may be infinite.
     pub distance: Option<(f64, f64)>,
     /// What makes one motion follow another, as teeth and threads do.
@@ -60,6 +63,7 @@ impl<const N: usize> JointDef<N> {
             frame_b: Pose::IDENTITY,
             axes: [Freedom::FREE; N],
             planes: vec![Freedom::FREE; planes::count(N)],
+            cone: None,
             distance: None,
             coupling: None,
             phase: None,
@@ -247,6 +251,18 @@ impl<const N: usize> JointDef<N> {
         self
     }
 
+    /// Keeps an axis of the second frame within `largest_angle`, rad, above 0 and below π, of the same axis of the first: what in three dimensions
+    /// is called the swing of a ball joint, in every dimension one limit.
+    ///
+    /// # Panics
+    /// If the axis is not below `N`.
+    #[must_use]
+    pub fn cone(mut self, axis: usize, largest_angle: f64) -> Self {
+        assert!(axis < N, "a cone needs an axis below {N}, got {axis}");
+        self.cone = Some((axis as u8, largest_angle));
+        self
+    }
+
     /// Sets [`JointDef::softness`].
     #[must_use]
     pub fn softness(mut self, hz: f64, damping_ratio: f64) -> Self {
@@ -346,6 +362,9 @@ impl<const N: usize> JointDef<N> {
                 "the distance lies between {least} and {greatest} m; the least must be 0 or more and finite, the greatest no smaller and above 0 (a ball joint keeps the distance 0)"
             )));
         }
+        if let Some((axis, angle)) = self.cone {
+            self.validate_cone(usize::from(axis), angle)?;
+        }
         if let Some(coupling) = &self.coupling {
             coupling.validate(&self.axes, &self.planes)?;
         }
@@ -375,6 +394,23 @@ impl<const N: usize> JointDef<N> {
             )));
         }
         self.groups().map(|_| ())
+    }
+
+    fn validate_cone(&self, axis: usize, angle: f64) -> Result<(), WorldError> {
+        if !(axis < N && angle > 0.0 && angle < PI) {
+            return Err(WorldError::bad_number(format!(
+                "the cone is about axis {axis} and has the angle {angle}; the axis must be below {N}, the angle above 0 and below π"
+            )));
+        }
+        let swings = |&(i, j): &(usize, usize)| (i == axis || j == axis) && !self.planes[planes::index(N, i, j)].locked;
+        if !planes::all(N).any(|plane| swings(&plane)) {
+            let name = planes::AXIS_NAMES[axis];
+            return Err(WorldError::new(
+                WorldErrorKind::NotAllowed,
+                format!("all planes with axis {name} are locked, so it cannot swing; free one, or leave the cone out"),
+            ));
+        }
+        Ok(())
     }
 
     /// The group of each axis: planes within a group are free, those between groups are locked.

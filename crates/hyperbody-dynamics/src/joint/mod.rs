@@ -57,8 +57,9 @@
 //! is missing. An *angle*, which limits and springs need, exists in a group of two axes; motors, which ask for a
 //! speed alone, go in every free plane.
 //!
-//! What does not generalise from 3D: "twist and swing" of a ball joint. A group of three or more axes has no angles that
-//! could be limited one by one.
+//! What does not generalise from 3D: the twist of a ball joint. A group of three or more axes has no angles that could be limited one by
+//! one. Its swing does: the angle between an axis of the one frame and the same of the other, [`JointDef::cone`], is one number in
+//! every dimension.
 
 mod access;
 mod coupling;

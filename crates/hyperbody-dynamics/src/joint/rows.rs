@@ -21,6 +21,8 @@ pub(crate) enum Coordinate {
     Turn(u8, u8),
     /// The angle of a free plane.
     Angle(u8, u8),
+    /// The angle from an axis of the first frame to the same of the second.
+    Swing(u8),
     /// The distance of the anchors.
     Length,
     /// What the coupling of the joint holds, m.
@@ -179,6 +181,9 @@ fn other_rows<const N: usize>(def: &JointDef<N>) -> Vec<RowSpec> {
             add(Role::AtLeast(low), 0.5 * (low + high));
             add(Role::AtMost(high), 0.5 * (low + high));
         }
+    }
+    if let Some((axis, angle)) = def.cone {
+        rows.push(RowSpec::new(Coordinate::Swing(axis), Role::AtMost(angle)));
     }
     rows.extend(
         def.distance.filter(|(least, greatest)| least < greatest).into_iter().flat_map(|range| bounds(def, range)),

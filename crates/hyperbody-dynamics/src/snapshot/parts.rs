@@ -102,6 +102,7 @@ stored!(JointDef<N> {
     frame_b,
     axes,
     planes,
+    cone,
     distance: open,
     coupling,
     phase,

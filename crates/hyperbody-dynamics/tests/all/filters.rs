@@ -157,6 +157,15 @@ fn check_sensor_on_sleepers<const N: usize>() {
         }
     }
     assert!(world.body(body).unwrap().is_sleeping() && !seen.iter().any(|event| event.0 == body));
+    // Nor does a sensor wake what is inside it when it becomes another one, or goes.
+    let around = world.add_body(BodyDef::fixed(ball(0.5)).sensor(true).position(Vector::unit(1) * 1.2)).unwrap();
+    world.step();
+    world.set_shape(around, ball(0.6)).unwrap();
+    world.step();
+    assert_eq!(world.inside(around).collect::<Vec<_>>(), [body]);
+    world.remove_body(around).unwrap();
+    world.step();
+    assert!(world.body(body).unwrap().is_sleeping(), "a sensor that goes wakes who was inside");
 }
 
 /// Thrown up from below it passes, comes back, and lies on top; thrown sideways it passes as well.

@@ -4,10 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use crate::common::{GRAVITY, assert_close, ball, cuboid, down, in_all_dimensions, run, world};
 use hyperbody_dynamics::{BodyDef, BodyHandle, JointDef, Spring, World, WorldDef, WorldErrorKind};
-use hyperbody_math::{Bivector, Pose, Vector};
+use hyperbody_math::{Bivector, Pose, Vector, planes};
 
 in_all_dimensions! {
     limits_hold_wherever_they_lie: check_limits;
+    a_cone_keeps_an_axis_and_leaves_the_turns_about_it: check_cone;
     planes_may_be_named_either_way_round: check_order;
     an_elastic_rope_is_a_spring_while_it_is_taut: check_elastic_rope;
     a_joint_between_moving_bodies_reports_the_torque_about_the_second_anchor: check_torque;
@@ -52,6 +53,46 @@ fn check_limits<const N: usize>() {
         let error = world.add_joint(hinge().angle_limits(0, 1, low, high)).unwrap_err();
         assert_eq!(error.kind(), WorldErrorKind::BadNumber, "{low}..{high}");
     }
+}
+
+fn check_cone<const N: usize>() {
+    let largest = 0.5;
+    for (i, j) in planes::all(N).filter(|&(i, j)| i == 1 || j == 1) {
+        let mut world = world(Vector::<N>::ZERO);
+        let mut spin = Bivector::ZERO;
+        spin.set(i, j, 2.0);
+        // And some turn about the axis, so that it does not go straight to the rim.
+        spin.set(0, N - 1, spin.get(0, N - 1) + if N > 2 { 1.0 } else { 0.0 });
+        let body = world.add_body(BodyDef::new(cuboid(Vector::splat(0.3))).angular_velocity(spin)).unwrap();
+        world.add_joint(JointDef::ball(None, body, Vector::ZERO, Vector::ZERO).cone(1, largest)).unwrap();
+        let (mut farthest, mut turned) = (0.0_f64, 0.0_f64);
+        for _ in 0..300 {
+            world.step();
+            let body = world.body(body).unwrap();
+            let axis = body.rotation().rotate(Vector::unit(1));
+            farthest = farthest.max(axis[1].clamp(-1.0, 1.0).acos());
+            turned = turned.max(1.0 - body.rotation().rotate(Vector::unit(0))[0]);
+        }
+        assert!((farthest - largest).abs() < 5e-3, "{farthest} rad in plane {i}{j} of {N}D");
+        assert!(N == 2 || turned > 1.5, "what is about the axis is free in {N}D, but turned by {turned}");
+    }
+    // A bar that points sideways sinks to the rim of its cone; what holds it there is the torque of its weight.
+    let mut world = world(down::<N>());
+    let bar =
+        world.add_body(BodyDef::new(cuboid(Vector::splat(0.1))).mass(2.0).position(Vector::unit(0) * 0.8)).unwrap();
+    let def = JointDef::ball(None, bar, Vector::ZERO, Vector::unit(0) * -0.8).cone(0, largest);
+    let joint = world.add_joint(def.clone()).unwrap();
+    run(&mut world, 3.0);
+    let place = world.body(bar).unwrap().position();
+    assert_close("sinks to", (-place[1]).atan2(place[0]), largest, 2e-3);
+    let torque = 2.0 * GRAVITY * 0.8 * largest.cos();
+    assert_close("held by", world.joint(joint).unwrap().torque().norm(), torque, 5e-3);
+    for wrong in [0.0, -1.0, PI, f64::NAN] {
+        let error = world.add_joint(def.clone().cone(0, wrong)).unwrap_err();
+        assert_eq!(error.kind(), WorldErrorKind::BadNumber, "{wrong}");
+    }
+    let weld = JointDef::weld(None, bar, Pose::IDENTITY, Pose::IDENTITY).cone(0, 1.0);
+    assert_eq!(world.add_joint(weld).unwrap_err().kind(), WorldErrorKind::NotAllowed);
 }
 
 /// What acts from the second axis to the first is what acts from the first to the second with the other sign.

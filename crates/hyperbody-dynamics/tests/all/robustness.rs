@@ -346,6 +346,23 @@ fn a_body_let_out_of_quarantine_where_it_was_rests_as_before() {
 }
 
 #[test]
+fn a_joint_of_a_body_in_quarantine_bears_nothing() {
+    let mut world = world(down::<4>());
+    let bob = world.add_body(BodyDef::new(ball(0.2)).position(Vector::unit(1) * -1.0)).unwrap();
+    let rope = world.add_joint(JointDef::rope(None, bob, Vector::ZERO, Vector::ZERO, 1.0)).unwrap();
+    run(&mut world, 1.0);
+    assert!(world.joint(rope).unwrap().force().norm() > 0.0);
+    for _ in 0..2 {
+        world.body_mut(bob).unwrap().apply_force(Vector::unit(0) * 1e308).unwrap();
+    }
+    for _ in 0..3 {
+        world.step();
+        assert_eq!(world.quarantined(), [bob]);
+        assert_eq!(world.joint(rope).unwrap().force().norm(), 0.0);
+    }
+}
+
+#[test]
 fn a_slow_platform_carries_its_rider_without_a_jerk() {
     let mut world = World::<4>::new(WorldDef { gravity: down(), ..WorldDef::default() }).unwrap();
     let slab = cuboid(Vector::from_fn(|axis| if axis == 1 { 0.1 } else { 2.0 }));

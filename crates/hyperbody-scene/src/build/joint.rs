@@ -87,6 +87,9 @@ where
             free.plane(i, j, freedom(joint)).collide(true)
         }
     };
+    if let Some(cone) = &joint.cone {
+        def = def.cone(axis(N, &cone.along, &format!("{path}.cone"))?, cone.angle.radians());
+    }
     def.softness = joint.softness.map(|[hz, ratio]| (hz, ratio));
     def.break_force = joint.break_force.unwrap_or(f64::INFINITY);
     def.break_torque = joint.break_torque.unwrap_or(f64::INFINITY);

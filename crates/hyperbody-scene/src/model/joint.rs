@@ -1,6 +1,6 @@
 //! Joints of a scene.
 
-use super::RotationSpec;
+use super::{Angle, RotationSpec};
 
 /// What ties two bodies of a scene together, or one to the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Joint {
     pub rotation_b: RotationSpec,
     /// Least and greatest angle of a hinge, or place of a slider.
     pub limits: Option<JointLimits>,
+    /// How far an axis of a ball or axle joint may swing.
+    pub cone: Option<JointCone>,
     /// A drive of what is free in a hinge, slider or motor joint.
     pub motor: Option<JointMotor>,
     /// A spring on what is free in a hinge or slider.
@@ -107,6 +109,15 @@ pub struct JointLimits {
     pub degrees: bool,
 }
 
+/// How far one of the joint's axes may point away from where it points on the first body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointCone {
+    /// An axis, such as "y".
+    pub along: String,
+    /// Above 0 and below half a turn.
+    pub angle: Angle,
+}
+
 /// A drive towards a speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointMotor {
@@ -142,6 +153,7 @@ impl Joint {
             rotation_a: RotationSpec::default(),
             rotation_b: RotationSpec::default(),
             limits: None,
+            cone: None,
             motor: None,
             spring: None,
             softness: None,
@@ -169,6 +181,13 @@ impl Joint {
     #[must_use]
     pub fn limited_deg(mut self, least: f64, greatest: f64) -> Self {
         self.limits = Some(JointLimits { range: [least, greatest], degrees: true });
+        self
+    }
+
+    /// With an axis that swings no farther than so many degrees.
+    #[must_use]
+    pub fn within_cone_deg(mut self, along: &str, angle: f64) -> Self {
+        self.cone = Some(JointCone { along: along.to_owned(), angle: Angle::Degrees(angle) });
         self
     }
 

@@ -7,7 +7,7 @@ mod scene;
 mod shape;
 
 pub use body::{Body, BodyKind};
-pub use joint::{Joint, JointKind, JointLimits, JointMotor, JointSpring};
+pub use joint::{Joint, JointCone, JointKind, JointLimits, JointMotor, JointSpring};
 pub use rotation::{Angle, RotationSpec, Turn};
 pub(crate) use scene::Beside;
 pub use scene::{DEFAULT_DT, DEFAULT_SUBSTEPS, NamedMaterial, Scene, default_gravity};

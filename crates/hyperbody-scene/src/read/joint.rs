@@ -3,7 +3,7 @@
 use super::cursor::{At, Fields, unknown_key};
 use super::{Result, rotation};
 use crate::error::SceneError;
-use crate::model::{Joint, JointKind, JointLimits, JointMotor, JointSpring};
+use crate::model::{Joint, JointCone, JointKind, JointLimits, JointMotor, JointSpring};
 
 /// Kinds of joints.
 pub(super) const JOINTS: [&str; 11] =
@@ -30,9 +30,10 @@ pub(super) const DRIVE_KEYS: [&str; 4] = ["limits", "limits_deg", "motor", "spri
 pub(super) fn joint(at: &At<'_>) -> Result<Joint> {
     let (key, inner) = at.variant("the kind of joint", &JOINTS)?;
     let own: &[&str] = match key {
-        "ball" | "weld" => &[],
+        "ball" => &["cone"],
+        "weld" => &[],
         "hinge" | "motor" => &["plane"],
-        "axle" => &["keeps"],
+        "axle" => &["keeps", "cone"],
         "slider" => &["along"],
         "distance" | "rope" => &["length"],
         "gear" => &["plane", "teeth"],
@@ -86,6 +87,7 @@ pub(super) fn joint(at: &At<'_>) -> Result<Joint> {
         }),
         _ => fields.or("motor", None, |at| motor(at).map(Some))?,
     };
+    joint.cone = fields.or("cone", None, |at| cone(at).map(Some))?;
     joint.spring = fields.or("spring", None, |at| spring(at).map(Some))?;
     Ok(joint)
 }
@@ -124,6 +126,11 @@ fn limits(fields: &Fields<'_>) -> Result<Option<JointLimits>> {
         SceneError::value(&at.path, format!("has {} numbers, expected 2: least and greatest", numbers.len()))
     })?;
     Ok(Some(JointLimits { range, degrees }))
+}
+
+fn cone(at: &At<'_>) -> Result<JointCone> {
+    let fields = at.fields("a cone such as {\"along\": \"y\", \"angle_deg\": 40}", &["along", "angle_deg", "angle"])?;
+    Ok(JointCone { along: fields.required("along")?.text()?, angle: rotation::angle(&fields)? })
 }
 
 fn motor(at: &At<'_>) -> Result<JointMotor> {

@@ -1,7 +1,7 @@
 //! Rotations: plane turns, a rotor, or a matrix.
 
 use super::Result;
-use super::cursor::At;
+use super::cursor::{At, Fields};
 use crate::error::SceneError;
 use crate::json::Json;
 use crate::model::{Angle, RotationSpec, Turn};
@@ -23,13 +23,17 @@ pub(super) fn rotation(at: &At<'_>) -> Result<RotationSpec> {
 fn turn(at: &At<'_>) -> Result<Turn> {
     let fields =
         at.fields("a turn such as {\"plane\": \"xy\", \"angle_deg\": 30}", &["plane", "angle_deg", "angle"])?;
-    let angle = match (fields.optional("angle_deg"), fields.optional("angle")) {
+    Ok(Turn { plane: fields.required("plane")?.text()?, angle: angle(&fields)? })
+}
+
+/// In degrees or in radians.
+pub(super) fn angle(fields: &Fields<'_>) -> Result<Angle> {
+    Ok(match (fields.optional("angle_deg"), fields.optional("angle")) {
         (Some(angle), None) => Angle::Degrees(angle.number()?),
         (None, Some(angle)) => Angle::Radians(angle.number()?),
         _ => {
             let message = "needs one of \"angle_deg\" (degrees) and \"angle\" (radians)";
             return Err(SceneError::structure(fields.path(), message));
         }
-    };
-    Ok(Turn { plane: fields.required("plane")?.text()?, angle })
+    })
 }

@@ -93,6 +93,7 @@ fn everything() -> Scene {
     let mut rod = Joint::new(JointKind::Distance { length: 2.0 }, "a", "b");
     rod.softness = Some([2.0, 0.5]);
     scene.joints.push(rod);
+    scene.joints.push(Joint::new(JointKind::Ball, "a", "b").within_cone_deg("w", 40.0));
     for kind in [JointKind::Weld, JointKind::Axle { keeps: 2 }, JointKind::Rope { length: 1.5 }] {
         scene.joints.push(Joint::new(kind, "a", "b"));
     }

@@ -112,6 +112,11 @@ impl<const N: usize> Geometry<N> {
                 let q = &self.relative;
                 hyperbody_math::scalar::atan2(q[j][i] - q[i][j], q[i][i] + q[j][j])
             }
+            Coordinate::Swing(axis) => {
+                let (axis, swung) = (usize::from(axis), self.relative.column(usize::from(axis)));
+                let aside_sq = (0..N).filter(|&i| i != axis).map(|i| swung[i] * swung[i]).sum::<f64>();
+                hyperbody_math::scalar::atan2(aside_sq.sqrt(), swung[axis])
+            }
             Coordinate::Length => self.gap.norm(),
             Coordinate::Coupled => self.coupling.map_or(0.0, |(coupling, phase)| self.off_mesh(&coupling, phase)),
         }
@@ -133,6 +138,25 @@ impl<const N: usize> Geometry<N> {
         if period < LEAST_PERIOD { change } else { change - period * ((change - expected) / period).round() }
     }
 
+    /// The plane in which a turn or an angle is measured, unit, world.
+    pub(super) fn plane(&self, coordinate: Coordinate) -> Bivector<N> {
+        let axis = |k: usize| self.axes.column(k);
+        match coordinate {
+            Coordinate::Turn(i, j) | Coordinate::Angle(i, j) => {
+                Bivector::wedge(axis(usize::from(i)), axis(usize::from(j)))
+            }
+            Coordinate::Swing(k) => {
+                let k = usize::from(k);
+                let swung = self.relative.column(k);
+                let aside = Vector::from_fn(|i| if i == k { 0.0 } else { swung[i] });
+                // Where it points straight ahead or back, any plane does.
+                let aside = aside.try_normalize().unwrap_or(Vector::unit((k + 1) % N));
+                Bivector::wedge(axis(k), self.axes * aside)
+            }
+            _ => Bivector::ZERO,
+        }
+    }
+
     /// Where the impulse between two anchors acts, as offsets from both centres. Between two moving bodies it is one point,
     /// midway, so that angular momentum is kept to rounding however far apart the anchors are; a fixed anchor stays where it is.
     fn meeting_point(&self, a: &SolverBody<N>, b: &SolverBody<N>) -> (Vector<N>, Vector<N>) {
@@ -151,8 +175,8 @@ impl<const N: usize> Geometry<N> {
             row.value -= TAU * ((row.value - row.spec.middle) / TAU).round();
         }
         match row.spec.coordinate {
-            Coordinate::Turn(i, j) | Coordinate::Angle(i, j) => {
-                let plane = Bivector::wedge(self.axes.column(usize::from(i)), self.axes.column(usize::from(j)));
+            Coordinate::Turn(..) | Coordinate::Angle(..) | Coordinate::Swing(_) => {
+                let plane = self.plane(row.spec.coordinate);
                 row.direction = Vector::ZERO;
                 row.base = plane.dot(&b.spin) - plane.dot(&a.spin);
                 row.acceleration = plane.dot(&b.spin_up) - plane.dot(&a.spin_up);

@@ -45,7 +45,7 @@ impl<const N: usize> JointRows<N> {
         let of_masses = a.inverse_sqrt_mass * a.inverse_sqrt_mass + b.inverse_sqrt_mass * b.inverse_sqrt_mass;
         for index in 0..rows.len() {
             let row = &rows[index];
-            let angle = matches!(row.spec.coordinate, Coordinate::Angle(..));
+            let angle = matches!(row.spec.coordinate, Coordinate::Angle(..) | Coordinate::Swing(..));
             let same = |other: &Row<N>| other.spec.coordinate == row.spec.coordinate;
             let driven = rows.iter().any(|other| same(other) && matches!(other.spec.role, Role::Driven(_)));
             let response = match row.spec.role {

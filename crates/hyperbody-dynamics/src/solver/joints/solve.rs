@@ -231,10 +231,15 @@ impl<const N: usize> Joints<N> {
                 if let Coordinate::Point(axis) = row.spec.coordinate {
                     (gap[usize::from(axis)], pull[usize::from(axis)]) = (row.value, impulse);
                 }
-                if let (Coordinate::Coupled, Some((coupling, _))) = (row.spec.coordinate, &joint.coupling) {
-                    let geometry = joint.geometry(&self.places[joint.a].now, &self.places[joint.b].now, rows);
-                    joint.step_twist += geometry.mesh(coupling).about(geometry.gap) * impulse;
-                }
+                let geometry = || joint.geometry(&self.places[joint.a].now, &self.places[joint.b].now, rows);
+                joint.step_twist += match (row.spec.coordinate, &joint.coupling) {
+                    (Coordinate::Coupled, Some((coupling, _))) => {
+                        let geometry = geometry();
+                        geometry.mesh(coupling).about(geometry.gap) * impulse
+                    }
+                    (Coordinate::Swing(_), _) if impulse != 0.0 => geometry().plane(row.spec.coordinate) * impulse,
+                    _ => continue,
+                };
             }
             if joint.meets_midway {
                 joint.step_twist += Bivector::wedge(gap * -0.5, pull);

@@ -37,7 +37,7 @@ impl Tension {
             for (row, impulses) in joint.rows.iter().zip(&joint.impulses) {
                 let impulse = impulses[0] + impulses[1];
                 match row.coordinate {
-                    Coordinate::Turn(..) | Coordinate::Angle(..) => twist += impulse.abs(),
+                    Coordinate::Turn(..) | Coordinate::Angle(..) | Coordinate::Swing(_) => twist += impulse.abs(),
                     _ => force_sq += impulse * impulse,
                 }
             }
