@@ -65,6 +65,7 @@ function start(): void {
 function followSettings({ stage, client }: Playground): void {
   effect(() => stage.surfaces.setMode(settings.surface.value));
   effect(() => stage.edges.setOn(settings.edges.value));
+  effect(() => stage.joints.setOn(settings.joints.value));
   effect(() => client.send("ghosts", { on: settings.ghosts.value, reach: GHOST_REACH }));
   effect(() => client.send("wires", { on: settings.wires.value }));
 }

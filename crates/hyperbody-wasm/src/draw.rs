@@ -65,6 +65,7 @@ where
                 buffers.asleep.push(state.id);
             }
         }
+        self.draw_joints(&moment, buffers);
     }
 
     fn draw_body(&mut self, state: &BodyMoment<N>, buffers: &mut Buffers) {

@@ -29,6 +29,10 @@ pub struct Buffers {
     pub wire_off: Vec<f32>,
     /// Body, first end, number of ends.
     pub wire_ranges: Vec<u32>,
+    /// Rods of joints: both ends of each, slice coordinates (three numbers) and how far off the slice it is, m.
+    pub joint_rods: Vec<f32>,
+    /// Anchors of joints, four numbers each, like the ends of rods.
+    pub joint_marks: Vec<f32>,
     /// Body, normal in slice coordinates (three numbers), offset.
     pub half_spaces: Vec<f32>,
     /// Body, then lowest and highest along each off direction.
@@ -55,6 +59,8 @@ impl Buffers {
             wire_positions,
             wire_off,
             wire_ranges,
+            joint_rods,
+            joint_marks,
             half_spaces,
             strip,
             centres,
@@ -69,6 +75,8 @@ impl Buffers {
             ghost_distances,
             wire_positions,
             wire_off,
+            joint_rods,
+            joint_marks,
             half_spaces,
             strip,
             centres,
@@ -98,6 +106,8 @@ impl Buffers {
             float(&self.wire_positions),
             float(&self.wire_off),
             whole(&self.wire_ranges),
+            float(&self.joint_rods),
+            float(&self.joint_marks),
             float(&self.half_spaces),
             float(&self.strip),
             float(&self.centres),

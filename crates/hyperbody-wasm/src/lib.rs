@@ -15,6 +15,7 @@
 //! | `cut`, `round` | sections of polytopes, and of round bodies |
 //! | `mesh`, `frame` | triangles of one body, and of all |
 //! | `view` | [`View`]: the slice |
+//! | `joints` | joints, as rods and marks |
 //! | `hands`, `history`, `impacts` | springs to hold by, the past, what strikes what |
 //! | `locate` | the line of a scene's text in which an error lies |
 //! | `bindings` | [`Engine`]: the JavaScript side |
@@ -28,6 +29,7 @@ mod frame;
 mod hands;
 mod history;
 mod impacts;
+mod joints;
 mod locate;
 mod mesh;
 mod message;

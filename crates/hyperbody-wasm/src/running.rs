@@ -13,6 +13,7 @@ use crate::drawable::Drawable;
 use crate::hands::Hand;
 use crate::history::{BodyMoment, History, Moment};
 use crate::impacts::Impacts;
+use crate::joints::DrawnJoint;
 use crate::view::View;
 
 /// A body of the scene. Bodies that were removed keep their place, so that numbers stay and undo brings them back.
@@ -60,6 +61,8 @@ pub(crate) struct Running<const N: usize> {
     pub(crate) history: History<N>,
     pub(crate) impacts: Impacts<N>,
     pub(crate) cutter: Cutter,
+    /// What is drawn of the joints of the world.
+    pub(crate) joints: Vec<DrawnJoint<N>>,
     /// Shapes that several bodies have.
     shapes: Vec<(Shape<N>, Arc<Drawable<N>>)>,
     /// Whether balls are drawn finely: there are few.
@@ -90,12 +93,14 @@ where
             history: History::default(),
             impacts: Impacts::default(),
             cutter: Cutter::new(),
+            joints: Vec::new(),
             shapes: Vec::new(),
             scene,
         };
         for ((body, name), handle) in running.scene.bodies.clone().into_iter().zip(names).zip(handles) {
             running.add_entry(body, name, handle);
         }
+        running.joints = running.joints_to_draw();
         running.record();
         Ok(running)
     }
@@ -241,6 +246,7 @@ where
                 hand.handle = handle;
             }
         }
+        self.joints = self.joints_to_draw();
         Ok(())
     }
 

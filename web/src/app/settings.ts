@@ -36,6 +36,7 @@ export function oneOf<T extends string>(...values: readonly T[]): (value: unknow
 export const settings = {
   ghosts: kept("ghosts", true, isBoolean),
   wires: kept("wires", false, isBoolean),
+  joints: kept("joints", true, isBoolean),
   edges: kept("edges", true, isBoolean),
   surface: kept<"solid" | "glass" | "off">("surface", "solid", oneOf("solid", "glass", "off")),
   sound: kept("sound", false, isBoolean),

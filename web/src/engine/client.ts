@@ -209,6 +209,8 @@ export function buffersOf(frame: Frame): ArrayBuffer[] {
     frame.wires?.positions,
     frame.wires?.off,
     frame.wires?.ranges,
+    frame.joints.rods,
+    frame.joints.marks,
     frame.halfSpaces,
     frame.strip,
     frame.centres,

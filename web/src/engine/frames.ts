@@ -43,6 +43,8 @@ const ARRAYS = [
   ["wirePositions", Float32Array],
   ["wireOff", Float32Array],
   ["wireRanges", Uint32Array],
+  ["jointRods", Float32Array],
+  ["jointMarks", Float32Array],
   ["halfSpaces", Float32Array],
   ["strip", Float32Array],
   ["centres", Float32Array],
@@ -104,6 +106,7 @@ export function assemble(
     wires: shown.wires
       ? { positions: arrays.wirePositions, off: arrays.wireOff, ranges: arrays.wireRanges }
       : null,
+    joints: { rods: arrays.jointRods, marks: arrays.jointMarks },
     halfSpaces: arrays.halfSpaces,
     strip: arrays.strip,
     centres: arrays.centres,

@@ -218,6 +218,14 @@ export interface Wires extends Lines {
   off: Float32Array<ArrayBuffer>;
 }
 
+/** Joints that tie places together, four numbers a point: the slice point, and how far off the slice it is, signed as in `Wires`, m. */
+export interface Joints {
+  /** Two points each: from an anchor to the body that it belongs to, where that lies apart, or from anchor to anchor. */
+  rods: Float32Array<ArrayBuffer>;
+  /** A point for each anchor; one where the two of a joint coincide. */
+  marks: Float32Array<ArrayBuffer>;
+}
+
 /** What panels tell of the selected body. */
 export interface Selected {
   body: number;
@@ -282,6 +290,7 @@ export interface Frame {
   /** null unless asked for. */
   ghosts: Ghosts | null;
   wires: Wires | null;
+  joints: Joints;
   /**
    * Sections of half-spaces, five numbers each: [body, nx, ny, nz, offset], solid where n·p ≤ offset, n a unit vector in
    * slice points. Those that the slice lies wholly inside or outside of are left out.

@@ -48,6 +48,7 @@ export const en = {
   ghosts: "Ghosts beside the slice",
   wires: "Whole bodies as wires",
   edges: "Edges",
+  joints: "Joints",
 
   shapes: "Add",
   shape: {
@@ -168,7 +169,7 @@ export const en = {
     pauseKey: "pause, run", stepKey: "one step", slowKey: "slow motion", resetKey: "start again", undoKey: "undo", backKey: "back and forth in time",
     cycle: "select the next / previous body", carry: "move the selected body (spring)", carryOff: "push it along w", spinKey: "turn it in view / into w (Shift)", freezeKey: "freeze",
     removeKey: "delete", gravityKey: "gravity on, off",
-    orbitKey: "orbit", zoomKey: "zoom", modeKey: "solid, glass, hidden", ghostKey: "ghosts", wireKey: "wires", frameKey: "see everything", fullKey: "full screen",
+    orbitKey: "orbit", zoomKey: "zoom", modeKey: "solid, glass, hidden", ghostKey: "ghosts", wireKey: "wires", jointKey: "joints", frameKey: "see everything", fullKey: "full screen",
     galleryKey: "scenes", editorKey: "editor", helpKey: "this sheet", closeKey: "close",
     drag: "Drag a body: pull it with a spring; let go in motion to throw", wheelDrag: "Wheel while dragging: push it along w", rightDrag: "Right-drag a body: turn it (Shift: into w)",
     orbitMouse: "Drag the ground: orbit; right-drag: shift; wheel: zoom", wheelShift: "Shift + wheel: move the slice", touchOne: "One finger: drag a body, or orbit",
@@ -192,7 +193,7 @@ export const en = {
   },
   vrPanel: {
     pause: "Pause", slow: "Slow", back: "2 s back", undo: "Undo", reset: "Start again", add: "Add a body", goThere: "Go there", freeze: "Freeze", remove: "Delete", home: "Home",
-    snap: "Snap 90°", gravity: "Gravity", ghosts: "Ghosts", wires: "Wires", glass: "Glass", last: "Scene before", next: "Next scene", leave: "Leave VR",
+    snap: "Snap 90°", gravity: "Gravity", ghosts: "Ghosts", wires: "Wires", joints: "Joints", glass: "Glass", last: "Scene before", next: "Next scene", leave: "Leave VR",
     hint: "Point and press with the right hand",
   },
 };

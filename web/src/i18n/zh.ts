@@ -50,6 +50,7 @@ export const zh: Words = {
   ghosts: "切片旁的虚影",
   wires: "整体线框",
   edges: "棱边",
+  joints: "关节",
 
   shapes: "添加",
   shape: {
@@ -160,7 +161,7 @@ export const zh: Words = {
     forward: "沿 w 前后移动", next: "到下一个／上一个物体", turn: "在 xw、yw、zw 内转动（Shift：90°）", homeKey: "复位", snapKey: "对齐到 90°", followKey: "跟随选中的物体",
     pauseKey: "暂停、运行", stepKey: "单步", slowKey: "慢动作", resetKey: "重新开始", undoKey: "撤销", backKey: "时间前后",
     cycle: "选下一个／上一个物体", carry: "移动选中的物体（弹簧）", carryOff: "沿 w 推它", spinKey: "在视图中转它／转入 w（Shift）", freezeKey: "固定", removeKey: "删除", gravityKey: "重力开关",
-    orbitKey: "环绕", zoomKey: "缩放", modeKey: "实体、玻璃、隐藏", ghostKey: "虚影", wireKey: "线框", frameKey: "看全景", fullKey: "全屏", galleryKey: "场景", editorKey: "编辑器",
+    orbitKey: "环绕", zoomKey: "缩放", modeKey: "实体、玻璃、隐藏", ghostKey: "虚影", wireKey: "线框", jointKey: "关节", frameKey: "看全景", fullKey: "全屏", galleryKey: "场景", editorKey: "编辑器",
     helpKey: "本页", closeKey: "关闭",
     drag: "拖动物体：用弹簧拉它；运动中松手即抛出", wheelDrag: "拖动时滚轮：沿 w 推它", rightDrag: "右键拖物体：转动它（Shift：转入 w）", orbitMouse: "拖地面：环绕；右键拖：平移；滚轮：缩放",
     wheelShift: "Shift + 滚轮：移动切片", touchOne: "单指：拖动物体或环绕", touchTwo: "按住物体时第二指上下滑：沿 w 推它；左右滑：转动它", touchPinch: "双指在地面：缩放与平移", touchLong: "长按或右键点物体：菜单",
@@ -183,6 +184,6 @@ export const zh: Words = {
   },
   vrPanel: {
     pause: "暂停", slow: "慢动作", back: "退 2 秒", undo: "撤销", reset: "重来", add: "添加物体", goThere: "前往", freeze: "固定", remove: "删除", home: "复位", snap: "对齐 90°", gravity: "重力",
-    ghosts: "虚影", wires: "线框", glass: "玻璃", last: "上个场景", next: "下个场景", leave: "退出 VR", hint: "用右手指向并按下",
+    ghosts: "虚影", wires: "线框", joints: "关节", glass: "玻璃", last: "上个场景", next: "下个场景", leave: "退出 VR", hint: "用右手指向并按下",
   },
 };

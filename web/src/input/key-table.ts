@@ -52,6 +52,7 @@ export const KEY_GROUPS: readonly KeyGroup[] = [
       { shown: ["1"], words: "modeKey" },
       { shown: ["2"], words: "ghostKey" },
       { shown: ["3"], words: "wireKey" },
+      { shown: ["4"], words: "jointKey" },
       { shown: ["A"], words: "frameKey" },
       { shown: ["M"], words: "fullKey" },
       { shown: ["C"], words: "galleryKey" },

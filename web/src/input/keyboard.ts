@@ -76,6 +76,7 @@ export class KeyboardInput {
       Digit1: () => (settings.surface.value = ({ solid: "glass", glass: "off", off: "solid" } as const)[settings.surface.value]),
       Digit2: () => (settings.ghosts.value = !settings.ghosts.value),
       Digit3: () => (settings.wires.value = !settings.wires.value),
+      Digit4: () => (settings.joints.value = !settings.joints.value),
       KeyL: () => (playground.followed.value = playground.followed.value === null ? selected : null),
       KeyN: () => this.cycle(1),
       KeyP: () => this.cycle(-1),

@@ -64,6 +64,7 @@ function ViewChoices() {
       <Switch label={t().edges} value={settings.edges} />
       <Switch label={t().ghosts} value={settings.ghosts} />
       <Switch label={t().wires} value={settings.wires} />
+      <Switch label={t().joints} value={settings.joints} />
     </section>
   );
 }

@@ -43,7 +43,7 @@ export class FlatlandView {
     this.ground.frustumCulled = false;
     this.ground.renderOrder = -1;
     this.scene.background = new Color("#0d1326");
-    this.scene.add(...passes, this.ground);
+    this.scene.add(...passes, this.ground, stage.joints.flat);
     this.makeSheet();
   }
 
@@ -144,6 +144,7 @@ export class FlatlandView {
     this.camera.quaternion.copy(this.sheet.quaternion);
     this.camera.position.copy(middle);
     this.camera.updateMatrixWorld();
+    this.stage.joints.setPlane(z, middle);
     const { uniforms } = this.ground.material;
     (uniforms.inWorld.value as Matrix4).multiplyMatrices(this.camera.matrixWorld, this.camera.projectionMatrixInverse);
   }

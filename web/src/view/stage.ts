@@ -7,6 +7,7 @@ import { BodyStyles } from "./body-styles";
 import { EdgeLayer } from "./edges";
 import { HalfSpaceLayer } from "./half-spaces";
 import { HandLayer } from "./hands";
+import { JointLayer } from "./joints";
 import { GhostLayer, WireLayer } from "./off-slice";
 import { OrbitCamera } from "./orbit";
 import { Picker, type Picked } from "./pick";
@@ -43,6 +44,7 @@ export class Stage {
   readonly edges = new EdgeLayer(this.styles);
   readonly ghosts = new GhostLayer();
   readonly wires = new WireLayer();
+  readonly joints = new JointLayer();
   readonly halfSpaces = new HalfSpaceLayer();
   readonly hands = new HandLayer();
   private readonly picker = new Picker();
@@ -65,7 +67,7 @@ export class Stage {
     this.rig.add(this.orbit.camera);
     this.light();
     this.scene.add(
-      this.rig, makeSky(), this.halfSpaces.group, this.surfaces.mesh, this.edges.lines, this.ghosts.mesh, this.wires.lines, this.hands.group,
+      this.rig, makeSky(), this.halfSpaces.group, this.surfaces.mesh, this.edges.lines, this.ghosts.mesh, this.wires.lines, this.joints.group, this.hands.group,
     );
   }
 
@@ -94,6 +96,7 @@ export class Stage {
     this.orbit.jump();
     this.aimLight();
     this.halfSpaces.setScale(this.middle, this.extent);
+    this.joints.setScale(this.extent);
   }
 
   /** Sends the camera to where a box of the slice is seen whole, beside all panels; or lets it glide there, from where it looks now. */
@@ -130,6 +133,7 @@ export class Stage {
     this.edges.update(frame.edges);
     this.ghosts.update(frame.ghosts, reach);
     this.wires.update(frame.wires);
+    this.joints.update(frame.joints, reach);
     this.halfSpaces.update(frame.halfSpaces, frame.slice);
     this.hands.update(frame.hands, frame.slice);
   }

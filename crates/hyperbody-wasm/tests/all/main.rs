@@ -2,6 +2,7 @@
 
 mod commands;
 mod hands;
+mod joints;
 mod past;
 mod scenes;
 mod sections;

@@ -84,6 +84,7 @@ export class WristPanel {
       },
       { label: () => words().ghosts, pressed: () => settings.ghosts.value, act: () => (settings.ghosts.value = !settings.ghosts.value) },
       { label: () => words().wires, pressed: () => settings.wires.value, act: () => (settings.wires.value = !settings.wires.value) },
+      { label: () => words().joints, pressed: () => settings.joints.value, act: () => (settings.joints.value = !settings.joints.value) },
       { label: () => words().glass, pressed: () => settings.surface.value === "glass", act: () => (settings.surface.value = settings.surface.value === "glass" ? "solid" : "glass") },
       { label: () => words().last, pressed: never, act: () => this.openNeighbour(-1) },
       { label: () => words().next, pressed: never, act: () => this.openNeighbour(1) },
