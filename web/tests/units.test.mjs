@@ -186,3 +186,20 @@ test("what a frame fills has its normals before the first frame: without them th
   assert.deepEqual(Object.keys(mesh.geometry.attributes).sort(), ["color", "normal", "position"]);
   assert.equal(mesh.geometry.drawRange.count, 0);
 });
+
+test("joints of a frame fill their buffers, and no more is allocated once they have grown", async () => {
+  const { JointLayer } = await vite.ssrLoadModule("/src/view/joints.ts");
+  const layer = new JointLayer();
+  const [rods, beads] = layer.group.children.map((mesh) => mesh.geometry);
+  const frame = (count) => ({ rods: Float32Array.from({ length: 8 * count }, (_, k) => k), marks: Float32Array.from({ length: 4 * count }, (_, k) => -k) });
+  layer.update(frame(40), 1.5);
+  assert.deepEqual([rods.instanceCount, beads.instanceCount], [40, 40]);
+  const { array } = rods.getAttribute("start").data;
+  assert.equal(rods.getAttribute("end").data.array, array, "both ends of a rod lie in one buffer");
+  assert.deepEqual([rods.getAttribute("end").getX(39), rods.getAttribute("end").getW(39)], [316, 319]);
+  layer.update(frame(3), 1.5);
+  assert.deepEqual([rods.instanceCount, beads.instanceCount], [3, 3]);
+  assert.equal(rods.getAttribute("start").data.array, array, "the buffer was made anew");
+  // The picture of Flatland shares them.
+  assert.deepEqual(layer.flat.children.map((mesh) => mesh.geometry), [rods, beads]);
+});

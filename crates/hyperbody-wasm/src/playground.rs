@@ -248,7 +248,7 @@ fn group(name: &str) -> &'static str {
         "bounce" | "clouds" => "bounces",
         "wing_nut" | "tumble" | "gyroscope" => "spins",
         "dominoes" | "bowling" | "wrecking_ball" => "games",
-        "cradle" | "chain" | "pendulum" | "seesaw" | "car" | "door" => "joints",
+        "cradle" | "chain" | "pendulum" | "seesaw" | "car" | "door" | "mixer" => "joints",
         _ => "more",
     }
 }

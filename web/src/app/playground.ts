@@ -9,7 +9,7 @@ import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
 import { HAND, HandControl } from "./hand-control";
 import { t, wordsOf } from "../i18n";
-import { firstTurn } from "../scenes/gallery";
+import { firstFollowed, firstTurn } from "../scenes/gallery";
 import { textOfOwn } from "../scenes/own";
 import { FirstLook } from "./first-look";
 import { Plots } from "./plots";
@@ -95,6 +95,8 @@ export class Playground {
   private wishes = 0;
   private readonly recovery = new Recovery();
   private fresh = false;
+  /** What the slice is to follow once the scene's first picture is chosen. */
+  private toFollow: number | null = null;
   private lastReadout = 0;
   private lastPicture = 0;
 
@@ -433,6 +435,10 @@ export class Playground {
 
   private take(frame: Frame): void {
     this.fresh = this.look.take(frame, this.bodies);
+    if (this.fresh && this.toFollow !== null) {
+      this.followed.value = this.toFollow;
+      this.toFollow = null;
+    }
     this.stage.setPickSurface(frame.surface);
     this.hands.agree(frame.hands);
     for (const listener of this.onFrame) listener(frame);
@@ -457,7 +463,9 @@ export class Playground {
     if (loaded && !again) this.begin(scene, load?.name ?? null);
     else this.stage.styles.setBodies(scene.bodies);
     if (loaded) this.hands.forget();
-    if (!scene.bodies.some((body) => body.id === this.selected.value)) this.select(null);
+    const isThere = (id: number | null) => id === null || scene.bodies.some((body) => body.id === id);
+    if (!isThere(this.selected.value)) this.select(null);
+    if (!isThere(this.followed.value)) this.followed.value = null;
     if (loaded && again) this.sendChoices();
   }
 
@@ -471,6 +479,7 @@ export class Playground {
   private begin(scene: SceneDescription, name: string | null): void {
     this.sceneName.value = name;
     this.select(null);
+    this.toFollow = scene.bodies.find((body) => body.name === firstFollowed(name))?.id ?? null;
     this.gravity.value = scene.gravity;
     this.setFlatland(this.sceneName.value?.startsWith("flatland") ?? false);
     this.stage.setScene(scene);

@@ -15,6 +15,14 @@ export function firstTurn(name: string | null): number | null {
   return name === null ? null : (BEGINS_TURNED[name] ?? null);
 }
 
+/** Scenes whose only moving thing leaves the slice at once: the body that the slice goes with from the start. */
+const BEGINS_FOLLOWING: Record<string, string> = { pendulum4d: "lower" };
+
+/** The name of the body that the slice of a scene follows at first. */
+export function firstFollowed(name: string | null): string | null {
+  return name === null ? null : (BEGINS_FOLLOWING[name] ?? null);
+}
+
 /** From this dimension on scenes have a group of their own, as have those of two. */
 const HIGHER = 5;
 
