@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
-import { DESKTOP, launch, open, serve, until } from "./support.mjs";
+import { centreOf, DESKTOP, idOf, launch, open, serve, until } from "./support.mjs";
 
 const CELL = { polytope: { regular: "24-cell", circumradius: 1 } };
 const scene = (shape) => JSON.stringify({ format: "hyperbody-scene", version: 1, name: "probe", dimension: 4, gravity: [0, 0, 0, 0], bodies: [{ name: "probe", kind: "static", shape, position: [0, 0, 0, 0] }] });
@@ -84,5 +84,28 @@ test("a ball of radius 1 is cut 0.6 off its middle into a ball of radius 0.8", a
   const radii = positions.flatMap((_, at) => (at % 3 === 0 ? [Math.hypot(positions[at], positions[at + 1], positions[at + 2])] : []));
   assert.ok(Math.abs(Math.max(...radii) - 0.8) < 1e-5, `the farthest vertex is ${Math.max(...radii)} from the middle`);
   assert.ok(Math.abs(Math.min(...radii) - 0.8) < 1e-5, `the nearest vertex is ${Math.min(...radii)} from the middle`);
+  await context.close();
+});
+
+test("the slice goes along with the double pendulum until somebody moves it, and again after a new start only if nobody did", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "pendulum4d" });
+  const upper = await idOf(page, "upper");
+  const w = () => page.evaluate(() => window.hyperbody.slice.origin[3]);
+  // Where it is along w, seen from the slice; the lower rod draws it along.
+  const away = async () => Math.abs((await centreOf(page, upper))[3]);
+  await until(page, () => window.hyperbody.frame.time > 0.8 && Math.abs(window.hyperbody.slice.origin[3]) > 0.1);
+  assert.ok((await away()) < 0.5, `the rod is ${await away()} m off the slice that follows it`);
+  await page.keyboard.press("Backspace");
+  await until(page, () => window.hyperbody.frame.time > 0.8 && Math.abs(window.hyperbody.slice.origin[3]) > 0.1);
+  await page.keyboard.press("e", { delay: 100 });
+  await page.waitForTimeout(600);
+  const before = await w();
+  await page.waitForTimeout(600);
+  assert.ok(Math.abs((await w()) - before) < 1e-6, "the slice still follows");
+  await page.keyboard.press("Backspace");
+  await until(page, () => window.hyperbody.frame.time > 0.5);
+  assert.ok(Math.abs((await w()) - before) < 1e-6, "a new start forgot that the slice was moved");
+  assert.deepEqual(errors, []);
   await context.close();
 });

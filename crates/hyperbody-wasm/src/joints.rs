@@ -1,13 +1,15 @@
-//! Joints as they are drawn: a mark at each anchor, a thin rod from it to the body that it belongs to where the two lie apart,
-//! and one between anchors that a joint holds at a distance.
+//! Joints as they are drawn: a mark at each anchor, a thin rod from it to the body that it belongs to, and one between anchors
+//! that a joint holds at a distance.
 //!
-//! An anchor stays where it is in the frame of its body, so where its rod meets the body is found once, by a ray from the
-//! anchor to the centre of mass. A frame only moves points. What ties no places together, a gear or a motor, is not drawn.
+//! Where the anchor lies apart from the body, the rod leads to its surface. Where it lies on or in a convex body that moves,
+//! the rod leads to its middle: a section hides that, and of what lies off the slice it shows how it hangs. An anchor stays
+//! where it is in the frame of its body, so this is found once, by a ray from the anchor to the centre of mass; a frame only
+//! moves points. What ties no places together, a gear or a motor, is not drawn.
 
 use hyperbody::collision::ray::{Ray, cast};
 use hyperbody::geometry::Solid;
 use hyperbody::math::{Dim, EvenAlgebra, Pose, Vector};
-use hyperbody::prelude::{JointDef, JointHandle};
+use hyperbody::prelude::{BodyKind, JointDef, JointHandle};
 
 use crate::cut::Drawn;
 use crate::drawable::signed_off;
@@ -36,7 +38,7 @@ struct Side<const N: usize> {
     body: Option<u32>,
     /// In the frame of the body, m.
     anchor: Vector<N>,
-    /// Where the rod from the anchor meets the body, in its frame, if it has one.
+    /// Where the rod from the anchor ends, in the frame of the body, if it has one.
     foot: Option<Vector<N>>,
 }
 
@@ -67,11 +69,13 @@ where
         let entry = body.map(|id| &self.entries[id as usize]);
         // A half-space has no middle that a rod could lead to.
         let entry = entry.filter(|entry| entry.drawable.half_space().is_none());
-        let hit = entry.and_then(|entry| {
-            let shape = self.world.body(entry.handle?)?.shape();
-            cast(&Ray::between(anchor, entry.centre_in_body), shape, &Pose::IDENTITY)
+        let foot = entry.and_then(|entry| {
+            let (centre, body) = (entry.centre_in_body, self.world.body(entry.handle?)?);
+            let met = cast(&Ray::between(anchor, centre), body.shape(), &Pose::IDENTITY)?.point;
+            let hangs = entry.spec.kind == BodyKind::Dynamic && body.shape().pieces().len() == 1;
+            let ends = [Some(met), hangs.then_some(centre)].into_iter().flatten();
+            ends.into_iter().find(|end| end.distance(anchor) > same)
         });
-        let foot = hit.map(|hit| hit.point).filter(|foot| foot.distance(anchor) > same);
         Side { body, anchor, foot }
     }
 

@@ -15,8 +15,8 @@ export function firstTurn(name: string | null): number | null {
   return name === null ? null : (BEGINS_TURNED[name] ?? null);
 }
 
-/** Scenes whose only moving thing leaves the slice at once: the body that the slice goes with from the start. */
-const BEGINS_FOLLOWING: Record<string, string> = { pendulum4d: "lower" };
+/** Scenes whose things leave the slice at once: the body that the slice goes with from the start, from which the others are never far. */
+const BEGINS_FOLLOWING: Record<string, string> = { pendulum4d: "upper" };
 
 /** The name of the body that the slice of a scene follows at first. */
 export function firstFollowed(name: string | null): string | null {

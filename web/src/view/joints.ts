@@ -8,9 +8,11 @@ import type { Joints } from "../engine/protocol";
 import { COOL, WARM } from "./palette";
 
 /** Radius of a rod: a share of the scene's extent, within limits, m. A bead is so many times as thick. */
-const RADIUS_SHARE = 0.0065;
+const RADIUS_SHARE = 0.0055;
 const RADIUS_LIMITS = [0.008, 0.05] as const;
-const BEAD = 2.1;
+const BEAD = 1.8;
+/** They are seen so many times as far off the slice as ghosts: they are few and thin. */
+const FARTHER = 2;
 const STEEL = "#ccd5ea";
 /** Numbers of a point: its place, and how far off the slice it is. */
 const POINT = 4;
@@ -55,7 +57,7 @@ export class JointLayer {
   }
 
   update(joints: Joints, reach: number): void {
-    this.reach.value = reach;
+    this.reach.value = FARTHER * reach;
     this.rods.fill(joints.rods);
     this.beads.fill(joints.marks);
   }
