@@ -203,3 +203,32 @@ test("joints of a frame fill their buffers, and no more is allocated once they h
   // The picture of Flatland shares them.
   assert.deepEqual(layer.flat.children.map((mesh) => mesh.geometry), [rods, beads]);
 });
+
+test("a new scene's camera follows what drives away whole, and of what flies apart keeps what stays", async () => {
+  const { FirstLook } = await vite.ssrLoadModule("/src/app/first-look.ts");
+  const { Box3 } = await import("three");
+  const rows = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  const kinds = ["static", "dynamic", "dynamic"];
+  const bodies = kinds.map((kind, id) => ({ id, kind, endless: false }));
+  // Every body is the segment from its place to a metre up, right and ahead.
+  const frameAt = (time, places) => ({
+    time, slice: { origin: [0, 0, 0], axes: rows, off: [] }, halfSpaces: new Float32Array(0), ghosts: null, strip: new Float32Array(0),
+    surface: { ranges: Uint32Array.from(places.flatMap((_, id) => [id, 2 * id, 2])), positions: Float32Array.from(places.flatMap((x) => [x, 0, 0, x + 1, 1, 1])) },
+  });
+  const watch = (placesAt) => {
+    const seen = new Box3();
+    let looks = 0;
+    const stage = { setSight: (box) => seen.copy(box), see: (box) => (seen.copy(box), (looks += 1)), orbit: { halt: () => undefined } };
+    const look = new FirstLook(stage, { drawn: () => ({ origin: [0, 0, 0], rows, shown: 3 }), jump: () => undefined });
+    look.begin();
+    assert.ok(look.take(frameAt(0, placesAt(0)), bodies));
+    for (let time = 0; time < 12; time += 0.05) look.settle(0.05, frameAt(time, placesAt(time)), bodies);
+    return { seen, looks };
+  };
+  const holds = ({ seen }, x) => seen.min.x <= x && seen.max.x >= x + 1;
+  const away = watch((time) => [3, 4 * time, 4 * time + 1.5]);
+  assert.ok(holds(away, 47) && !holds(away, 3), `it drove to 48 m, and the picture is from ${away.seen.min.x} to ${away.seen.max.x}`);
+  const apart = watch((time) => [3, 0, 4 * time]);
+  assert.ok(holds(apart, 0) && apart.seen.max.x < 15, `one stayed, and the picture is from ${apart.seen.min.x} to ${apart.seen.max.x}`);
+  assert.ok(apart.looks < away.looks, "it comes to rest where something stays");
+});

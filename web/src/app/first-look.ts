@@ -66,7 +66,7 @@ export class FirstLook {
       }
     }
     this.opening = null;
-    const box = sight(frame, bodies, true);
+    const box = sight(frame, bodies, "start");
     if (!box) return true;
     this.stage.setSight(box);
     this.seen.copy(box);
@@ -78,17 +78,24 @@ export class FirstLook {
 
   /** Once a picture: goes with what falls, swings and comes to rest. */
   settle(seconds: number, frame: Frame, bodies: readonly BodyDescription[]): void {
-    if (frame.time > this.until) this.until = -Infinity;
     if (this.until === -Infinity) return;
-    const now = sight(frame, bodies);
-    if (!now) return;
-    // What rolls away together is followed; of what flies apart, what stays.
-    if (now.getSize(new Vector3()).length() > MOST_GROWTH * this.size) now.intersect(this.limit);
-    if (now.isEmpty()) return;
+    const now = this.toSee(frame, bodies);
+    if (!now || now.isEmpty()) return;
+    // What leaves as a whole would be gone: it is followed until somebody takes hold.
+    if (frame.time > this.until && now.intersectsBox(this.limit)) this.until = -Infinity;
     const share = 1 - Math.exp(-SHRINK_RATE * seconds);
     this.seen.min.lerp(now.min, share).min(now.min);
     this.seen.max.lerp(now.max, share).max(now.max);
     this.stage.see(this.seen, true);
+  }
+
+  /** All there is; what rolls away together, without what it leaves behind; of what flies apart, what stays. */
+  private toSee(frame: Frame, bodies: readonly BodyDescription[]): Box3 | null {
+    const isTooLarge = (box: Box3 | null) => box !== null && box.getSize(new Vector3()).length() > MOST_GROWTH * this.size;
+    const all = sight(frame, bodies);
+    if (!isTooLarge(all)) return all;
+    const moving = sight(frame, bodies, "moving");
+    return isTooLarge(moving) ? (all?.intersect(this.limit) ?? null) : moving;
   }
 }
 

@@ -12,19 +12,22 @@ const LARGEST_FIXED = 2;
 const ROOM = 0.05;
 const LEAST_ROOM = 0.2;
 
-/** A box in the slice that holds all that a picture has to hold; null where nothing can be seen. At the start things are about to fall. */
-export function sight(frame: Frame, bodies: readonly BodyDescription[], start = false): Box3 | null {
+/**
+ * A box in the slice that holds all that a picture has to hold; null where nothing can be seen. At the start things are about
+ * to fall; of what only moves, what stands still is left out.
+ */
+export function sight(frame: Frame, bodies: readonly BodyDescription[], what: "start" | "all" | "moving" = "all"): Box3 | null {
   const fixed = new Set(bodies.filter(({ kind }) => kind === "static").map(({ id }) => id));
   const boxes = sections(frame);
   const box = new Box3();
   for (const [body, its] of boxes) if (!fixed.has(body)) box.union(its);
   const size = box.getSize(new Vector3()).length();
   for (const [body, its] of boxes) {
-    if (fixed.has(body) && (size === 0 || its.getSize(new Vector3()).length() < LARGEST_FIXED * size)) box.union(its);
+    if (fixed.has(body) && what !== "moving" && (size === 0 || its.getSize(new Vector3()).length() < LARGEST_FIXED * size)) box.union(its);
   }
   if (box.isEmpty()) return null;
   const height = box.max.y - box.min.y;
-  if (start && bodies.filter((body) => body.endless).length > 1) box.max.y = box.min.y + FALLEN * height;
+  if (what === "start" && bodies.filter((body) => body.endless).length > 1) box.max.y = box.min.y + FALLEN * height;
   const floor = floorBelow(frame, box.getCenter(new Vector3()));
   if (box.min.y - floor < NEAR_FLOOR * size) box.min.y = Math.min(box.min.y, floor);
   return box.expandByScalar(LEAST_ROOM + ROOM * size);
