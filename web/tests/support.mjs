@@ -61,7 +61,8 @@ export const until = (page, test, argument, timeout = 15_000) => page.waitForFun
 /** Coordinates of a body, in the world: [slice point…, off…] of the newest frame. */
 export const centreOf = (page, body) => page.evaluate((id) => {
   const { frame } = window.hyperbody;
-  const stride = frame.slice.origin.length + 1;
+  // Three coordinates in the slice, also where two are drawn.
+  const stride = 4 + frame.slice.off.length;
   for (let at = 0; at < frame.centres.length; at += stride) if (frame.centres[at] === id) return Array.from(frame.centres.subarray(at + 1, at + stride));
   return null;
 }, body);

@@ -3,7 +3,7 @@
 import { batch, signal } from "@preact/signals";
 import { Vector3, type Ray } from "three";
 import type { EngineClient } from "../engine/client";
-import type { BodyDescription, BuiltIn, Frame, SceneDescription, Selected } from "../engine/protocol";
+import { centreStride, DRAWN, type BodyDescription, type BuiltIn, type Frame, type SceneDescription, type Selected } from "../engine/protocol";
 import { Stage } from "../view/stage";
 import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
@@ -221,9 +221,10 @@ export class Playground {
     this.setPaused(!this.paused.value);
   }
 
-  /** One step, after which time stands. */
+  /** One step from the moment that is shown, after which time stands. */
   stepOnce(): void {
     this.paused.value = true;
+    this.client.send("resumeHere", {});
     this.client.send("step", {});
   }
 
@@ -272,6 +273,12 @@ export class Playground {
     toFrame(this.slice.frame, centre).slice(shown).forEach((away, j) => this.slice.moveTo(this.slice.offset(j) + away, j));
   }
 
+  /** Moves the slice along an off direction, as a person asks: it follows nothing then. */
+  moveSlice(offset: number, j = 0): void {
+    this.followed.value = null;
+    this.slice.moveTo(offset, j);
+  }
+
   remove(body: number): void {
     void this.attempt(this.client.request("remove", { body }));
     if (this.selected.value === body) this.select(null);
@@ -297,17 +304,22 @@ export class Playground {
     return position.map((value, axis) => value - (strength > 0 ? (height * up[axis]) / strength : 0));
   }
 
-  /** How far off the slice a body lies, along the first off direction; null if the slice cuts it, or it is not there. */
-  distanceOff(body: number): number | null {
+  /** How far off the slice a body lies, along the off direction where that is most; null if the slice cuts it, or it is not there. */
+  distanceOff(body: number): { off: number; away: number } | null {
     const { frame } = this.client;
     if (!frame || this.flatland.value) return null;
-    const stride = 1 + 2 * frame.slice.off.length;
-    for (let at = 0; at + stride <= frame.strip.length && stride > 1; at += stride) {
+    const count = frame.slice.off.length;
+    const stride = 1 + 2 * count;
+    let farthest = { off: 0, away: 0 };
+    for (let at = 0; at + stride <= frame.strip.length && count > 0; at += stride) {
       if (frame.strip[at] !== body) continue;
-      const [low, high] = [frame.strip[at + 1], frame.strip[at + 2]];
-      return low > 0 ? low : high < 0 ? high : null;
+      for (let off = 0; off < count; off++) {
+        const [low, high] = [frame.strip[at + 1 + 2 * off], frame.strip[at + 2 + 2 * off]];
+        const away = low > 0 ? low : high < 0 ? high : 0;
+        if (Math.abs(away) > Math.abs(farthest.away)) farthest = { off, away };
+      }
     }
-    return null;
+    return farthest.away === 0 ? null : farthest;
   }
 
   /** The ray under a place on the page, CSS pixels. */
@@ -347,14 +359,11 @@ export class Playground {
   centre(body: number): number[] | null {
     const { frame } = this.client;
     if (!frame) return null;
-    const n = frame.slice.origin.length;
     const { centres, slice } = frame;
-    for (let at = 0; at + n < centres.length; at += n + 1) {
+    for (let at = 0; at < centres.length; at += centreStride(slice)) {
       if (centres[at] !== body) continue;
-      const directions = [...slice.axes, ...slice.off];
-      return slice.origin.map((value, axis) =>
-        directions.reduce((sum, direction, row) => sum + centres[at + 1 + row] * direction[axis], value),
-      );
+      const along = (directions: readonly number[][], first: number, axis: number) => directions.reduce((sum, direction, row) => sum + centres[first + row] * direction[axis], 0);
+      return slice.origin.map((value, axis) => value + along(slice.axes, at + 1, axis) + along(slice.off, at + 1 + DRAWN, axis));
     }
     return null;
   }
@@ -377,7 +386,7 @@ export class Playground {
     const cameraSeconds = Math.min(LONGEST_CAMERA_FRAME, since);
     this.lastPicture = time;
     this.stage.orbit.calm = this.slice.calm = calm.value;
-    for (const listener of this.onPicture) listener(seconds);
+    tellAll(this.onPicture, seconds);
     this.slice.update(seconds, this.followedAway());
     if (this.slice.takeChange()) this.sendSlice();
     this.hands.update();
@@ -390,7 +399,7 @@ export class Playground {
       if (!calm.value) this.look.settle(cameraSeconds, frame, this.bodies);
     }
     this.stage.render(cameraSeconds);
-    if (this.flatland.value) this.flat.render(this.slice.frame);
+    if (this.flatland.value) this.flat.render(this.slice.frame, !this.stage.renderer.xr.isPresenting);
     this.quality.pictureTook(seconds);
     // The canvas still holds what was drawn: it is cleared once this callback returns.
     if (this.pictureWanted) this.stage.renderer.domElement.toBlob(handOver(this.pictureWanted), "image/png");
@@ -441,7 +450,7 @@ export class Playground {
     }
     this.stage.setPickSurface(frame.surface);
     this.hands.agree(frame.hands);
-    for (const listener of this.onFrame) listener(frame);
+    tellAll(this.onFrame, frame);
   }
 
   private tell(frame: Frame, time: number): void {
@@ -497,6 +506,17 @@ export class Playground {
     this.slice.reset(dimension, allowed ? 2 : Math.min(3, dimension), allowed ? null : firstTurn(this.sceneName.value));
     this.flat.setVisible(allowed);
     this.sendSlice();
+  }
+}
+
+/** Calls all, whatever becomes of one: an error of an instrument must not keep the world from being drawn. */
+function tellAll<T>(listeners: ReadonlySet<(value: T) => void>, value: T): void {
+  for (const listener of listeners) {
+    try {
+      listener(value);
+    } catch (error) {
+      reportError(error);
+    }
   }
 }
 

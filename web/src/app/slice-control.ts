@@ -40,9 +40,10 @@ export class SliceControl {
     return this.frame.rows.length - this.frame.shown;
   }
 
-  /** Where the slice stands along its off direction `j`, m from the world's origin. */
+  /** Where the slice stands along its off direction `j`, m from the world's origin; 0 where all is drawn. */
   offset(j = 0): number {
-    return dot(this.frame.origin, this.frame.rows[this.frame.shown + j]);
+    const row = this.frame.rows[this.frame.shown + j];
+    return row ? dot(this.frame.origin, row) : 0;
   }
 
   /** A new scene's slice: home, or with one axis of the view turned into the first off direction. */

@@ -301,7 +301,7 @@ export interface Frame {
    * direction] for every body that ends.
    */
   strip: Float32Array<ArrayBuffer>;
-  /** [body, x, y, z, off…] of the centre of mass of every body that ends: slice point and n − k off coordinates. */
+  /** [body, x, y, z, off…] of the centre of mass of every body that ends: slice point (z = 0 where k = 2) and n − k off coordinates. */
   centres: Float32Array<ArrayBuffer>;
   selected: Selected | null;
   impacts: Impact[];
@@ -314,6 +314,12 @@ export interface Frame {
   history: { seconds: number; secondsBack: number; undo: string | null };
   energy: { kinetic: number; potential: number; total: number };
 }
+
+/** Numbers of a slice point in arrays, also where k = 2. */
+export const DRAWN = 3;
+
+/** Numbers of a body in `Frame.centres`. */
+export const centreStride = (slice: Required<Slice>): number => 1 + DRAWN + slice.off.length;
 
 /** Page → worker: the name in `type`, the number of the request in `id`, and what it takes. */
 export type ToWorker =

@@ -193,7 +193,7 @@ export const en = {
   },
   vrPanel: {
     pause: "Pause", slow: "Slow", back: "2 s back", undo: "Undo", reset: "Start again", add: "Add a body", goThere: "Go there", freeze: "Freeze", remove: "Delete", home: "Home",
-    snap: "Snap 90°", gravity: "Gravity", ghosts: "Ghosts", wires: "Wires", joints: "Joints", glass: "Glass", last: "Scene before", next: "Next scene", leave: "Leave VR",
+    snap: "Snap 90°", gravity: "Gravity", ghosts: "Ghosts", wires: "Wires", joints: "Joints", step: "One step", follow: "Follow", glass: "Glass", last: "Scene before", next: "Next scene", leave: "Leave VR",
     hint: "Point and press with the right hand",
   },
 };

@@ -184,6 +184,6 @@ export const zh: Words = {
   },
   vrPanel: {
     pause: "暂停", slow: "慢动作", back: "退 2 秒", undo: "撤销", reset: "重来", add: "添加物体", goThere: "前往", freeze: "固定", remove: "删除", home: "复位", snap: "对齐 90°", gravity: "重力",
-    ghosts: "虚影", wires: "线框", joints: "关节", glass: "玻璃", last: "上个场景", next: "下个场景", leave: "退出 VR", hint: "用右手指向并按下",
+    ghosts: "虚影", wires: "线框", joints: "关节", step: "单步", follow: "跟随", glass: "玻璃", last: "上个场景", next: "下个场景", leave: "退出 VR", hint: "用右手指向并按下",
   },
 };

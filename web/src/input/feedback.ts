@@ -44,8 +44,10 @@ export class Feedback {
       .slice(0, MOST_KNOCKS);
     for (const { impact, strength } of loudest) {
       if (settings.sound.value) this.knock(impact, strength);
-      if (settings.vibration.value && impact.hands.includes(HAND.pointer)) navigator.vibrate?.(Math.ceil(LONGEST_PULSE_MS * strength));
     }
+    // A pulse takes the place of the one before: the strongest of a frame is felt.
+    const felt = loudest.find(({ impact }) => impact.hands.includes(HAND.pointer));
+    if (felt && settings.vibration.value) navigator.vibrate?.(Math.ceil(LONGEST_PULSE_MS * felt.strength));
   }
 
   private lightest({ body, other }: Impact): number {

@@ -1,9 +1,10 @@
-// The keyboard: everything that hands can do. Keys that are held set speeds, keys that are pressed act once. Keys are known
-// by their place (`code`), so that they lie together on every layout.
+// The keyboard: everything that hands can do. Keys that are held set speeds, keys that are pressed act once. Letters are known
+// by their place (`code`), so that they lie together on every layout; signs, and the Z of Ctrl+Z, by what they write.
 import { Vector3 } from "three";
 import { HAND } from "../app/hand-control";
 import type { Playground } from "../app/playground";
 import { settings } from "../app/settings";
+import { centreStride, DRAWN } from "../engine/protocol";
 import { toggleGravity, toggleFullscreen } from "../ui/more-panel";
 import { menu, sheet, toggleSheet, tourStep } from "../ui/state";
 import { SLOW_FACTOR } from "../ui/transport";
@@ -20,10 +21,13 @@ const TURN_KEYS: Record<string, [number, number]> = { KeyR: [0, 1], KeyF: [0, -1
 const CARRY_KEYS: Record<string, [number, number, number]> = {
   KeyL: [1, 0, 0], KeyJ: [-1, 0, 0], KeyI: [0, 1, 0], KeyK: [0, -1, 0], KeyO: [0, 0, 1], KeyU: [0, 0, -1],
 };
+/** Signs are known by what the key writes, wherever it lies. */
+const SIGNS: Record<string, string> = { "+": "Equal", "-": "Minus", "[": "BracketLeft", "]": "BracketRight" };
 const ARROWS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class KeyboardInput {
-  private readonly held = new Set<string>();
+  /** Keys that are down, by their place, and the place that they stand for. */
+  private readonly held = new Map<string, string>();
   private alt = false;
   private shift = false;
   private readonly scrubbing = { at: 0, back: 0 };
@@ -39,7 +43,7 @@ export class KeyboardInput {
     [this.alt, this.shift] = [event.altKey, event.shiftKey];
     if (isTyping(event.target) || belongsToControl(event)) return;
     if (event.ctrlKey || event.metaKey) {
-      if (event.code === "KeyZ") this.act(event, () => void this.playground.undo());
+      if (event.key.toLowerCase() === "z") this.act(event, () => void this.playground.undo());
       return;
     }
     const single = event.repeat ? undefined : this.singleKey(event);
@@ -47,7 +51,7 @@ export class KeyboardInput {
       this.act(event, single);
       return;
     }
-    this.held.add(event.code);
+    this.held.set(event.code, SIGNS[event.key] ?? event.code);
     if (event.altKey || event.code in ARROWS) event.preventDefault();
   }
 
@@ -115,11 +119,9 @@ export class KeyboardInput {
   private goToNeighbour(sign: number): void {
     const { frame } = this.playground.client;
     if (!frame || frame.slice.off.length === 0) return;
-    const n = frame.slice.origin.length;
-    const offAt = 1 + frame.slice.axes.length;
     let best: { body: number; away: number } | null = null;
-    for (let at = 0; at + n < frame.centres.length; at += n + 1) {
-      const away = sign * frame.centres[at + offAt];
+    for (let at = 0; at < frame.centres.length; at += centreStride(frame.slice)) {
+      const away = sign * frame.centres[at + 1 + DRAWN];
       if (away > 0.05 && (!best || away < best.away)) best = { body: frame.centres[at], away };
     }
     if (best) this.playground.goTo(best.body);
@@ -138,7 +140,8 @@ export class KeyboardInput {
 
   private update(seconds: number): void {
     const { slice, stage } = this.playground;
-    const is = (code: string) => (this.held.has(code) ? 1 : 0);
+    const places = new Set(this.held.values());
+    const is = (code: string) => (places.has(code) ? 1 : 0);
     const along = is("KeyE") - is("KeyQ");
     const free = !this.alt && !this.shift;
     if (slice.offCount > 0) {

@@ -228,7 +228,7 @@ export class PointerInput {
     const amount = event.deltaY || event.deltaX;
     const { hands, slice, stage } = this.playground;
     if (hands.holds(HAND.pointer) !== null) hands.push(HAND.pointer, this.playground.drawnFrame().shown, -amount * PUSH_PER_WHEEL);
-    else if ((event.shiftKey || event.altKey) && slice.offCount > 0) slice.moveTo(slice.offset() - amount * SLICE_PER_WHEEL);
+    else if ((event.shiftKey || event.altKey) && slice.offCount > 0) this.playground.moveSlice(slice.offset() - amount * SLICE_PER_WHEEL);
     else stage.orbit.zoom(Math.exp(amount * ZOOM_PER_WHEEL * (event.ctrlKey ? 5 : 1)));
   }
 

@@ -1,5 +1,5 @@
 // Everything about the selected body, live: where it is, how it moves and turns, what it holds, and the last seconds of it.
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { HAND } from "../app/hand-control";
 import { t } from "../i18n";
 import { BODY_COLOURS } from "../view/palette";
@@ -56,21 +56,27 @@ export function BodyPanel() {
   );
 }
 
-/** Turns the body in every plane of the slice's frame, those that lead off the slice too: by a hand of the panel's own. */
+/** An angle within half a turn either way. */
+function remainder(angle: number): number {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+}
+
+/** Turns the body in every plane of the world, as the numbers beneath count them: by a hand of the panel's own. */
 function TurnKnobs({ body }: { body: number }) {
   const playground = usePlayground();
   const { hands } = playground;
-  const turned = useRef<Record<string, number>>({});
+  const [turned, setTurned] = useState<Record<string, number>>({});
   const release = () => hands.release(HAND.panel);
   useEffect(() => release, []);
   const n = playground.slice.frame.rows.length;
   const planes = Array.from({ length: n }, (_, i) => Array.from({ length: n - 1 - i }, (_, k) => [i, i + 1 + k] as const)).flat();
-  const direction = (row: number) => Array.from({ length: n }, (_, axis) => (axis === row ? 1 : 0));
+  // An axis of the world, in the frame that is drawn.
+  const direction = (axis: number) => playground.drawnFrame().rows.map((row) => row[axis]);
   const turn = (name: string, i: number, j: number, by: number) => {
     const centre = playground.centre(body);
     if (hands.holds(HAND.panel) === null && centre) hands.grab(HAND.panel, body, centre, true);
     hands.turn(HAND.panel, direction(i), direction(j), by);
-    turned.current[name] = (turned.current[name] ?? 0) + by;
+    setTurned((before) => ({ ...before, [name]: remainder((before[name] ?? 0) + by) }));
   };
   return (
     <>
@@ -80,7 +86,7 @@ function TurnKnobs({ body }: { body: number }) {
           const name = AXES[i] + AXES[j];
           return (
             <Dial
-              key={name} label={t().turnBodyIn(name)} name={name} angle={turned.current[name] ?? 0} colour={AXIS_COLOURS[j]}
+              key={name} label={t().turnBodyIn(name)} name={name} angle={turned[name] ?? 0} colour={AXIS_COLOURS[j]}
               onTurn={(by) => turn(name, i, j, by)} onEnd={release}
             />
           );

@@ -78,8 +78,9 @@ function paint(context: CanvasRenderingContext2D, width: number, height: number,
 
 /** Turns the slice from one of the view's axes into an off direction; a double click, or Enter, by 90°. */
 function Knob({ view, off }: { view: number; off: number }) {
-  const { slice } = usePlayground();
-  const { rows, shown } = slice.frame;
+  const { slice, readout } = usePlayground();
+  // The slice's frame is no signal: the readout, which comes with each, is what draws the knob anew.
+  const { rows, shown } = readout.value?.slice ?? slice.frame;
   const name = `${AXES[view]}${AXES[shown + off]}`;
   const angle = Math.atan2(rows[view][shown + off], rows[view][view]);
   return (

@@ -43,7 +43,7 @@ export function Dial({ label, name, angle, colour, onTurn, onEnd, onQuarter }: D
   };
   return (
     <button
-      type="button" class="knob" role="slider" aria-label={label} aria-valuenow={Math.round(angle * DEGREES)} title={label}
+      type="button" class="knob" role="slider" aria-label={label} aria-valuenow={Math.round(angle * DEGREES)} aria-valuemin={-180} aria-valuemax={180} title={label}
       onPointerDown={(event) => {
         (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
         last.current = along(event);

@@ -111,13 +111,25 @@ function Gravity() {
         <label class="switch">
           <input
             type="checkbox" role="switch" checked={tilt.on.value}
-            onChange={(event) => void (event.currentTarget.checked ? tilt.start(playground).then((works) => works || playground.say(t().gravityNoTilt)) : tilt.stop())}
+            onChange={(event) => void setTilt(playground, event.currentTarget)}
           />
           <span>{t().gravityTilt}</span>
         </label>
       )}
     </section>
   );
+}
+
+/** Follows the device, or not; where it cannot, the switch says so too. */
+async function setTilt(playground: Playground, box: HTMLInputElement): Promise<void> {
+  if (!box.checked) {
+    tilt.stop();
+    return;
+  }
+  // Refused permission is no tilt either.
+  const works = await tilt.start(playground).catch(() => false);
+  box.checked = works;
+  if (!works) playground.say(t().gravityNoTilt);
 }
 
 /** Gravity off, or on again as the scene has it (straight down where the scene has none). */

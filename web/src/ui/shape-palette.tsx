@@ -16,7 +16,7 @@ export function ShapePalette() {
         {shapesFor(dimension).map(({ name, icon, shape }) => {
           const label = t().shape[name];
           return (
-            <button key={name} type="button" class="button shape" title={label} aria-label={`${t().shapes}: ${label}`} data-shape={name} onClick={() => void playground.spawn(shape, name)}>
+            <button key={name} type="button" class="button shape" title={label} aria-label={`${t().shapes}: ${label}`} data-shape={name} onClick={() => void playground.spawn(shape, label)}>
               <svg class="icon" viewBox="0 0 24 24" aria-hidden="true"><path d={icon} /></svg>
               <span>{label}</span>
             </button>

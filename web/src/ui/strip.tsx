@@ -18,6 +18,8 @@ const LEAST_HALF_RANGE = 1.5;
 const MOST_EXTENTS = 1.6;
 const TAP_PIXELS = 5;
 const KEY_STEP = 0.1;
+/** What those who hear the page are told of the range, m: there is no end. */
+const RANGE = 100;
 
 interface Bar {
   body: number;
@@ -39,6 +41,8 @@ export function Strip({ off }: { off: number }) {
   const frame = playground.readout.value?.slice;
   const axis = frame ? offName(frame, Math.min(off, frame.rows.length - frame.shown - 1)) : "w";
 
+  const offset = playground.slice.offset(off);
+
   const along = (event: PointerEvent) => {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
     const flat = box.width > box.height;
@@ -57,8 +61,7 @@ export function Strip({ off }: { off: number }) {
     const { at, scale } = along(event);
     if (Math.abs(at - held.start) > TAP_PIXELS) held.moved = true;
     if (!held.moved) return;
-    playground.followed.value = null;
-    playground.slice.moveTo(held.offset + (at - held.start) / scale, off);
+    playground.moveSlice(held.offset + (at - held.start) / scale, off);
   };
   const up = (event: PointerEvent) => {
     const held = drag.current;
@@ -67,18 +70,18 @@ export function Strip({ off }: { off: number }) {
     const { value, across } = along(event);
     const bar = barAt(bars.current, value, across);
     if (bar) playground.goTo(bar.body);
-    else playground.slice.moveTo(value, off);
+    else playground.moveSlice(value, off);
   };
   const key = (event: KeyboardEvent) => {
     const sign = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 }[event.key];
     if (!sign) return;
     event.preventDefault();
     event.stopPropagation();
-    playground.slice.moveTo(playground.slice.offset(off) + sign * KEY_STEP, off);
+    playground.moveSlice(playground.slice.offset(off) + sign * KEY_STEP, off);
   };
   return (
     <LiveCanvas
-      class="strip" role="slider" tabIndex={0} aria-label={t().sliceAlong(axis)} aria-valuenow={Number(playground.slice.offset(off).toFixed(2))} title={t().strip}
+      class="strip" role="slider" tabIndex={0} aria-label={t().sliceAlong(axis)} aria-valuenow={Number(offset.toFixed(2))} aria-valuemin={Math.min(-RANGE, offset)} aria-valuemax={Math.max(RANGE, offset)} aria-valuetext={`${axis} ${signed(offset).trim()} m`} title={t().strip}
       data-testid={`strip-${off}`} onPointerDown={down} onPointerMove={move} onPointerUp={up} onPointerCancel={() => (drag.current = null)} onKeyDown={key}
       draw={(context, width, height) => {
         collect(playground, off, bars.current);

@@ -5,7 +5,7 @@ import { IconButton } from "./icons";
 
 export const SLOW_FACTOR = 0.2;
 /** Below this share of real time the page says that the machine is too slow. */
-const SLOW_SHARE = 0.85;
+export const SLOW_SHARE = 0.85;
 
 export function Transport() {
   const playground = usePlayground();

@@ -113,12 +113,13 @@ export class FlatlandView {
     return extents;
   }
 
-  /** Draws the cut by the plane of `slice` (two rows drawn, the third its normal) into the inset. */
-  render(slice: SliceFrame): void {
+  /** Puts the sheet into the world, and draws the cut by the plane of `slice` (two rows drawn, the third its normal) into the inset, where there is one: a headset has no corner to put it. */
+  render(slice: SliceFrame, inset: boolean): void {
     const { renderer } = this.stage;
     const half = HALF_HEIGHT_EXTENTS * this.stage.sceneExtent;
     const aspect = this.inset.width / Math.max(1, this.inset.height);
     this.place(slice, half, aspect);
+    if (!inset) return;
     const height = renderer.domElement.clientHeight;
     const { left, top, width, height: insetHeight } = this.inset;
     renderer.setScissorTest(true);

@@ -47,6 +47,8 @@ export class Stage {
   readonly joints = new JointLayer();
   readonly halfSpaces = new HalfSpaceLayer();
   readonly hands = new HandLayer();
+  /** Called when a new scene has its place in the picture. */
+  onSight: () => void = () => undefined;
   private readonly picker = new Picker();
   private readonly key = new DirectionalLight("#fff2e0", 2.05);
   private extent = 4;
@@ -97,6 +99,7 @@ export class Stage {
     this.aimLight();
     this.halfSpaces.setScale(this.middle, this.extent);
     this.joints.setScale(this.extent);
+    this.onSight();
   }
 
   /** Sends the camera to where a box of the slice is seen whole, beside all panels; or lets it glide there, from where it looks now. */

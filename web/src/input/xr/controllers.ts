@@ -130,6 +130,7 @@ export class Controllers {
     const { slice, hands } = this.playground;
     if (slice.offCount > 0 && controller.source?.handedness === "left") {
       slice.setGlide(0, y);
+      if (y !== 0) this.playground.followed.value = null;
       if (slice.frame.shown > 1) slice.setSpin(1, 0, x);
     } else if (slice.offCount > 0) {
       slice.setSpin(0, 0, x);
@@ -142,24 +143,25 @@ export class Controllers {
   /** Aims while the stick is pressed, goes when it is let go. */
   private teleportBy(controller: Controller, pressed: boolean): void {
     const { rig } = this.playground.stage;
-    if (pressed) this.teleport.aim(rayOf(controller.space), rig.position.y);
+    if (pressed) this.teleport.aim(rayOf(controller.space), rig.position.y, rig.scale.x);
     else if (controller.stickWasPressed) {
       const goal = this.teleport.take();
-      if (goal) rig.position.set(goal.x, rig.position.y, goal.z);
+      // The head lands above the ring: in the room it may stand beside its middle.
+      const head = new Vector3().setFromMatrixPosition(this.playground.stage.renderer.xr.getCamera().matrixWorld);
+      if (goal) rig.position.add(goal.sub(head).setY(0));
     }
     controller.stickWasPressed = pressed;
   }
 
   private pulse(frame: Frame): void {
     if (!settings.vibration.value) return;
-    for (const impact of frame.impacts) {
-      for (const controller of this.controllers) {
-        if (!impact.hands.includes(controller.hand)) continue;
-        const held = this.playground.body(this.playground.hands.holds(controller.hand));
-        const strength = strengthOf(impact, held?.mass ?? 1);
-        const actuator = controller.source?.gamepad?.hapticActuators?.[0];
-        if (strength > 0 && actuator && "pulse" in actuator) void (actuator as Pulses).pulse(strength, PULSE_MS);
-      }
+    for (const controller of this.controllers) {
+      const held = this.playground.body(this.playground.hands.holds(controller.hand));
+      const its = frame.impacts.filter((impact) => impact.hands.includes(controller.hand));
+      // A pulse takes the place of the one before: of all impacts of a frame the strongest is felt.
+      const strength = its.reduce((most, impact) => Math.max(most, strengthOf(impact, held?.mass ?? 1)), 0);
+      const actuator = controller.source?.gamepad?.hapticActuators?.[0];
+      if (strength > 0 && actuator && "pulse" in actuator) void (actuator as Pulses).pulse(strength, PULSE_MS);
     }
   }
 }

@@ -24,11 +24,12 @@ export class Teleport {
     this.marker.visible = false;
   }
 
-  /** Shows where the ray meets the ground of this height. */
-  aim(ray: Ray, ground: number): void {
+  /** Shows where the ray meets the ground of this height, to a viewer of this scale. */
+  aim(ray: Ray, ground: number, scale: number): void {
     const hit = ray.intersectPlane(new Plane(new Vector3(0, 1, 0), -ground), new Vector3());
-    this.goal = hit && hit.distanceTo(ray.origin) < FARTHEST_TELEPORT ? hit : null;
+    this.goal = hit && hit.distanceTo(ray.origin) < FARTHEST_TELEPORT * scale ? hit : null;
     this.marker.visible = this.goal !== null;
+    this.marker.scale.setScalar(scale);
     if (this.goal) this.marker.position.copy(this.goal).setY(ground + 0.01);
   }
 

@@ -28,6 +28,7 @@ class Xr {
     const manager = playground.stage.renderer.xr;
     manager.addEventListener("sessionstart", () => this.begin(playground));
     manager.addEventListener("sessionend", () => this.end(playground));
+    playground.stage.onSight = () => this.presenting.value && this.place(playground);
     playground.onPicture.add((seconds) => this.presenting.value && this.controllers?.update(seconds));
   }
 
@@ -56,11 +57,16 @@ class Xr {
 
   private begin(playground: Playground): void {
     this.presenting.value = true;
+    this.place(playground);
+    this.controllers?.setVisible(true);
+  }
+
+  /** In front of the scene, as large as it asks for. */
+  private place(playground: Playground): void {
     const { rig, sceneExtent, sceneMiddle } = playground.stage;
     rig.scale.setScalar(Math.min(MOST_SCALE, Math.max(1, sceneExtent / NATURAL_EXTENT)));
     rig.position.set(sceneMiddle.x, Math.min(0, sceneMiddle.y - sceneExtent), sceneMiddle.z + STAND_BACK * sceneExtent);
     if (sceneMiddle.y >= 0) rig.position.y = 0;
-    this.controllers?.setVisible(true);
   }
 
   private end(playground: Playground): void {

@@ -8,7 +8,8 @@ import { t } from "../../i18n";
 import { shapesFor } from "../../scenes/shapes";
 import { sceneWords } from "../../ui/gallery";
 import { toggleGravity } from "../../ui/more-panel";
-import { SLOW_FACTOR } from "../../ui/transport";
+import { offName } from "../../ui/axes";
+import { SLOW_FACTOR, SLOW_SHARE } from "../../ui/transport";
 
 const WIDTH = 0.3;
 const HEIGHT = 0.27;
@@ -84,6 +85,8 @@ export class WristPanel {
       },
       { label: () => words().ghosts, pressed: () => settings.ghosts.value, act: () => (settings.ghosts.value = !settings.ghosts.value) },
       { label: () => words().wires, pressed: () => settings.wires.value, act: () => (settings.wires.value = !settings.wires.value) },
+      { label: () => words().step, pressed: never, act: () => playground.stepOnce() },
+      { label: () => words().follow, pressed: () => playground.followed.value !== null, act: () => (playground.followed.value = playground.followed.value === null ? playground.selected.value : null) },
       { label: () => words().joints, pressed: () => settings.joints.value, act: () => (settings.joints.value = !settings.joints.value) },
       { label: () => words().glass, pressed: () => settings.surface.value === "glass", act: () => (settings.surface.value = settings.surface.value === "glass" ? "solid" : "glass") },
       { label: () => words().last, pressed: never, act: () => this.openNeighbour(-1) },
@@ -108,7 +111,7 @@ export class WristPanel {
   private palette(): Button[] {
     const { playground } = this;
     const shapes = shapesFor(playground.scene.value?.dimension ?? 4).map(({ name, icon, shape }): Button => ({
-      label: () => t().shape[name], pressed: () => false, act: () => void playground.spawn(shape, name), icon,
+      label: () => t().shape[name], pressed: () => false, act: () => void playground.spawn(shape, t().shape[name]), icon,
     }));
     return [{ label: () => t().close, pressed: () => true, act: () => (this.adding = false) }, ...shapes];
   }
@@ -126,8 +129,12 @@ export class WristPanel {
     this.draw(title, told);
   }
 
-  /** The body that was touched last, and how fast it goes. */
+  /** What the page says just now; else the body that was touched last, and how fast it goes. */
   private told(): string {
+    const { notice, readout, paused } = this.playground;
+    if (notice.value) return notice.value;
+    const share = readout.value?.slowdown ?? 1;
+    if (!paused.value && share < SLOW_SHARE) return t().tooSlow((100 * share).toFixed(0));
     const body = this.playground.readout.value?.selected;
     if (!body) return t().vrPanel.hint;
     return `${body.name} · ${Math.hypot(...body.velocity).toFixed(1)} m/s`;
@@ -171,7 +178,7 @@ export class WristPanel {
     context.font = "600 30px system-ui, sans-serif";
     context.fillText(title, 28, 44, width - 190);
     context.font = "26px system-ui, sans-serif";
-    if (this.playground.slice.offCount > 0) context.fillText(`w ${this.playground.slice.offset().toFixed(1)}`, width - 130, 44);
+    if (this.playground.slice.offCount > 0) context.fillText(`${offName(this.playground.slice.frame, 0)} ${this.playground.slice.offset().toFixed(1)}`, width - 130, 44);
     context.fillStyle = "#b9c6e8";
     context.fillText(told, 28, 92, width - 56);
     const buttonHeight = this.rowHeight;
