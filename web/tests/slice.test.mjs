@@ -99,7 +99,7 @@ test("the slice goes along with the double pendulum until somebody moves it, and
   await page.keyboard.press("Backspace");
   await until(page, () => window.hyperbody.frame.time > 0.8 && Math.abs(window.hyperbody.slice.origin[3]) > 0.1);
   await page.keyboard.press("e", { delay: 100 });
-  await page.waitForTimeout(600);
+  await page.waitForTimeout(1800);
   const before = await w();
   await page.waitForTimeout(600);
   assert.ok(Math.abs((await w()) - before) < 1e-6, "the slice still follows");

@@ -206,7 +206,7 @@ test("the panel has the palette: shapes are added from it until it is closed", a
   };
   // "Add a body"; then the first and the last shape of four dimensions.
   await press(page, FROM, onWrist(1, 2));
-  assert.match(await added(0, 1), /tesseract/);
+  assert.match(await added(0, 1), /Box/);
   assert.match(await added(4, 0), /spherinder/);
   assert.equal((await names()).length, before.length + 2);
   // Below the last shape there is nothing to press; "Close" brings the usual buttons back, of which this one stops time.

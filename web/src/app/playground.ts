@@ -34,11 +34,13 @@ const LONGEST_CAMERA_FRAME = 0.6;
 const SAFE_SCENE = "dice4d";
 
 /** A scene that is asked for: built in (a name and no text), the page's own (both), or from elsewhere (a text). */
-interface Load {
+export interface Load {
   name: string | null;
   text: string | null;
-  /** From its start, with all that was chosen. */
+  /** With all that was chosen: the same scene as before. */
   again: boolean;
+  /** Its text at a later moment, which it goes on from. */
+  moment?: string;
 }
 
 /** What the panels show of a frame. */
@@ -89,6 +91,8 @@ export class Playground {
   private pictureWanted: ((picture: Blob) => void) | null = null;
   /** Loads that the worker has been asked for, in its order. */
   private readonly loads: Load[] = [];
+  /** What ran before the running scene was opened or started again: the first thing that undo has when the scene has nothing more. */
+  private readonly before = signal<Load | null>(null);
   /** What runs, for a new start. */
   private running: Load | null = null;
   /** Counts wishes for a scene: the latest one wins. */
@@ -140,13 +144,13 @@ export class Playground {
     const wish = ++this.wishes;
     const text = await this.attempt(textOfOwn(name), () => t().notFetched);
     if (text === undefined || wish !== this.wishes) return;
-    await this.attempt(this.load({ name, text, again: false }));
+    await this.attempt(this.replace({ name, text, again: false }));
   }
 
   /** Loads scene text; rejects with a `RefusedError` that names the line, and the running scene goes on. */
   async loadText(text: string): Promise<void> {
     this.wishes += 1;
-    await this.load({ name: null, text, again: false });
+    await this.replace({ name: null, text, again: false });
   }
 
   /** The text that the running scene was loaded from, where the page has it. */
@@ -156,7 +160,36 @@ export class Playground {
 
   /** The scene from its start; slice, camera and choices stay. */
   reset(): void {
-    if (this.running) void this.attempt(this.load({ ...this.running, again: true }));
+    if (this.running) void this.attempt(this.replace({ ...this.running, again: true, moment: undefined }));
+  }
+
+  /** The running scene as it is now, to come back to. */
+  async now(): Promise<Load | null> {
+    const { running } = this;
+    if (!running) return null;
+    const { text } = await this.client.request("sceneText", {});
+    return { ...running, moment: text };
+  }
+
+  /** Goes back to a scene as it was. */
+  async goBackTo(load: Load): Promise<void> {
+    this.wishes += 1;
+    this.before.value = null;
+    await this.attempt(this.load(load));
+  }
+
+  /** Loads a scene in place of the running one, which undo brings back. */
+  private async replace(load: Load): Promise<void> {
+    // Both requests are sent at once, so that loads keep their order.
+    const now = this.now().catch(() => null);
+    await this.load(load);
+    const before = await now;
+    this.before.value = before && { ...before, again: load.again };
+  }
+
+  /** Whether there is something to take back. */
+  get canUndo(): boolean {
+    return this.readout.value?.history.undo != null || this.before.value !== null;
   }
 
   /** Asks the worker, whose scenes come in the order in which they were asked for. */
@@ -164,7 +197,8 @@ export class Playground {
     this.loads.push(load);
     const { client } = this;
     try {
-      if (load.again) await client.request("reset", {});
+      if (load.moment !== undefined) await client.request("load", { text: load.moment });
+      else if (load.again && this.running?.moment === undefined) await client.request("reset", {});
       else if (load.text !== null) await client.request("load", { text: load.text });
       else await client.request("loadBuiltin", { name: load.name ?? "" });
     } finally {
@@ -207,7 +241,12 @@ export class Playground {
 
   async undo(): Promise<void> {
     const answer = await this.attempt(this.client.request("undo", {}));
+    const before = this.before.value;
     if (answer?.undone) this.say(t().undone(answer.undone));
+    else if (answer && before) {
+      await this.goBackTo(before);
+      this.say(t().undone(before.again ? "reset" : "open"));
+    }
   }
 
   /** Stops time, or goes on from the moment that is shown. */

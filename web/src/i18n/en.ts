@@ -99,6 +99,9 @@ export const en = {
   current: "Take the running scene",
   open: "Open file…",
   download: "Download",
+  keptAside: "Another text has taken the place of what you wrote.",
+  bringBack: "Bring mine back",
+  forgotten: (name: string) => `Deleted “${name}”`,
   keep: "Save here",
   share: "Copy link",
   linkCopied: "Link copied",
@@ -142,7 +145,7 @@ export const en = {
   startOver: "Start the engine again",
   stopsEngine: "The physics engine has an error with this scene. Change it before you run it again.",
   notFetched: "This scene could not be fetched. Does the server still run, or is the net away?",
-  undone: (what: string) => `Taken back: ${({ grab: "pulling", spawn: "adding a body", remove: "deleting", freeze: "freezing", turn: "turning" } as Record<string, string>)[what] ?? what}`,
+  undone: (what: string) => `Taken back: ${({ grab: "pulling", spawn: "adding a body", remove: "deleting", freeze: "freezing", turn: "turning", reset: "starting again", open: "opening another scene" } as Record<string, string>)[what] ?? what}`,
   refused: {
     past: "An earlier moment is shown. Run to go on from it, or slide back to now, to change something.",
     frozen: "This body is frozen: let it go first.",

@@ -101,6 +101,9 @@ export const zh: Words = {
   current: "取当前场景",
   open: "打开文件……",
   download: "下载",
+  keptAside: "另一段文本取代了您写的内容。",
+  bringBack: "恢复我写的",
+  forgotten: (name) => `已删除“${name}”`,
   keep: "存在本机",
   share: "复制链接",
   linkCopied: "链接已复制",
@@ -143,7 +146,7 @@ export const zh: Words = {
   startOver: "重新启动引擎",
   stopsEngine: "这个场景会让物理引擎出错，请修改后再运行。",
   notFetched: "取不到这个场景。服务器还在运行吗？网络通吗？",
-  undone: (what) => `已撤销：${({ grab: "拉动", spawn: "添加物体", remove: "删除", freeze: "固定", turn: "转动" } as Record<string, string>)[what] ?? what}`,
+  undone: (what) => `已撤销：${({ grab: "拉动", spawn: "添加物体", remove: "删除", freeze: "固定", turn: "转动", reset: "重新开始", open: "打开另一个场景" } as Record<string, string>)[what] ?? what}`,
   refused: {
     past: "现在显示的是先前的时刻。要改动，请点“运行”从这里继续，或滑回“此刻”。", frozen: "这个物体已固定：请先松开它。", immovable: "没有什么能移动这个物体。", gone: "这个物体已经不在了。",
     full: "世界已满：请删除一些物体，或重新开始。", flat: "平的切片不成立体：导出文件需要三维以上的世界。", nothing: "切片没有切到任何物体：请先移动切片再导出。",

@@ -1,5 +1,5 @@
-// Which keys do what, as the sheet of shortcuts shows it. The keys themselves are handled in keyboard.ts; both name keys by
-// their place, so that the table serves every layout of latin letters.
+// Which keys do what, as the sheet of shortcuts shows it. The keys themselves are handled in keyboard.ts; both name letters by
+// their place on an English keyboard, and the sheet says what is written there on the one at hand.
 import type { Words } from "../i18n/en";
 
 type KeyWords = keyof Words["keys"];

@@ -47,8 +47,20 @@ export function keepScene(text: string, replaces: string | null): string | null 
   return store([{ name, text }, ...others]) ? name : null;
 }
 
+/** The scene that was forgotten last, until the page is left. */
+export const forgottenScene = signal<KeptScene | null>(null);
+
 export function forgetScene(name: string): void {
-  store(readKept().filter((scene) => scene.name !== name));
+  const kept = readKept();
+  const scene = kept.find((each) => each.name === name) ?? null;
+  if (store(kept.filter((each) => each !== scene))) forgottenScene.value = scene;
+}
+
+/** Keeps what was forgotten last after all. */
+export function rememberScene(): void {
+  const scene = forgottenScene.value;
+  const kept = readKept();
+  if (scene && store([{ ...scene, name: freeName(scene.name, kept) }, ...kept])) forgottenScene.value = null;
 }
 
 /** All that is kept, as one file for another browser, address or machine. */

@@ -27,6 +27,9 @@ export function App() {
   if (!playground.scene.value) return <p class="starting">{t().starting}</p>;
   return (
     <>
+      {/* What lies in the world comes first: panels are above it. */}
+      <OffMarker />
+      <DiceLabels />
       <TopBar />
       <ShapePalette />
       <div class="side">
@@ -36,8 +39,6 @@ export function App() {
       <Compass />
       <Transport />
       <Warnings />
-      <OffMarker />
-      <DiceLabels />
       <Hint />
       {playground.flatland.value && <FlatlandFrame />}
       {sheet.value === "gallery" && <Gallery />}

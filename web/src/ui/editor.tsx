@@ -14,9 +14,29 @@ import { IconButton } from "./icons";
 import { sheet } from "./state";
 
 const text = signal("");
+/** Whether a person has written in it since it was put there. */
+let edited = false;
+/** What was written when another text took its place. */
+const aside = signal<string | null>(null);
 /** Under which name what is edited is kept already: it is kept there again, and everything else beside it. */
 const keptAs = signal<string | null>(null);
 const problem = signal<{ message: string; line: number | undefined } | null>(null);
+
+/** Puts a text into the editor; what somebody has written there is kept aside. */
+function put(source: string): void {
+  if (edited && text.value !== source && text.value.trim() !== "") aside.value = text.value;
+  edited &&= text.value === source;
+  text.value = source;
+}
+
+function bringBack(): void {
+  const written = aside.value;
+  if (written === null) return;
+  aside.value = null;
+  put(written);
+  edited = true;
+  keptAs.value = problem.value = null;
+}
 
 /** Runs a scene from outside; if it is broken, the editor opens on the line that is. A file of kept scenes is kept instead. */
 export async function runText(playground: Playground, source: string, name: string | null = null): Promise<void> {
@@ -29,7 +49,7 @@ export async function runText(playground: Playground, source: string, name: stri
     return;
   }
   if (source !== text.value || name !== null) keptAs.value = name;
-  text.value = source;
+  put(source);
   try {
     await playground.loadText(source);
     problem.value = null;
@@ -41,7 +61,7 @@ export async function runText(playground: Playground, source: string, name: stri
 
 /** Puts a scene that keeps stopping the engine into the editor, with what is wrong. */
 export function offerLost(source: string): void {
-  text.value = source;
+  put(source);
   problem.value = { message: t().stopsEngine, line: undefined };
 }
 
@@ -59,30 +79,44 @@ function keep(playground: Playground): void {
 
 async function takeCurrent(playground: Playground): Promise<void> {
   const answer = await playground.client.request("sceneText", {});
-  text.value = answer.text;
+  put(answer.text);
   keptAs.value = null;
   problem.value = null;
 }
 
+/** Copies a link to the text. The page's own address becomes that link only where the text is what runs. */
 async function share(playground: Playground): Promise<void> {
+  const link = new URL(location.href);
+  link.search = "";
   try {
-    history.replaceState(null, "", await linkOf(text.value));
-    cameInLink(text.value);
+    link.hash = await linkOf(text.value);
+    if (text.value === playground.text) {
+      history.replaceState(null, "", link.hash);
+      cameInLink(text.value);
+    }
   } catch {
     playground.say(t().linkTooLong); // Browsers take addresses of a megabyte or two.
     return;
   }
   try {
-    await navigator.clipboard.writeText(location.href);
+    await navigator.clipboard.writeText(link.href);
     playground.say(t().linkCopied);
   } catch {
-    playground.say(t().linkReady); // The clipboard is closed to this page.
+    // The clipboard is closed to this page.
+    history.replaceState(null, "", link.hash);
+    cameInLink(text.value);
+    playground.say(t().linkReady);
   }
 }
 
 function takeFile(found: string): void {
-  text.value = found;
+  put(found);
   keptAs.value = null;
+}
+
+function write(written: string): void {
+  text.value = written;
+  edited = true;
 }
 
 export function Editor() {
@@ -90,7 +124,10 @@ export function Editor() {
   const area = useRef<HTMLTextAreaElement>(null);
   const gutter = useRef<HTMLPreElement>(null);
   useEffect(() => {
-    if (!text.value) takeCurrent(playground).catch((error: Error) => playground.say(error.message));
+    // What nobody has touched follows the running scene.
+    const follows = !edited && problem.value === null && (text.value === "" || text.value !== playground.text);
+    if (follows && playground.text !== null) text.value = playground.text;
+    else if (follows) takeCurrent(playground).catch((error: Error) => playground.say(error.message));
   }, [playground]);
   useEffect(() => {
     const line = problem.value?.line;
@@ -106,7 +143,7 @@ export function Editor() {
           {Array.from({ length: lines }, (_, i) => <span key={i} class={problem.value?.line === i + 1 ? "bad" : ""}>{`${i + 1}\n`}</span>)}
         </pre>
         <textarea
-          ref={area} spellcheck={false} aria-label={t().editor} value={text.value} data-testid="editor-text" onInput={(event) => (text.value = event.currentTarget.value)}
+          ref={area} spellcheck={false} aria-label={t().editor} value={text.value} data-testid="editor-text" onInput={(event) => write(event.currentTarget.value)}
           onScroll={(event) => gutter.current && (gutter.current.scrollTop = event.currentTarget.scrollTop)}
           onKeyDown={(event) => {
             if (event.key !== "Enter" || !(event.ctrlKey || event.metaKey)) return;
@@ -119,6 +156,12 @@ export function Editor() {
         <p class="problem" role="alert" data-testid="problem">
           {problem.value.line !== undefined && <b>{t().line(problem.value.line)}: </b>}
           {t().problem(problem.value.message)}
+        </p>
+      )}
+      {aside.value !== null && (
+        <p class="row aside">
+          <span>{t().keptAside}</span>
+          <IconButton icon="undo" text label={t().bringBack} onPress={bringBack} />
         </p>
       )}
       <footer>

@@ -2,7 +2,7 @@
 import type { BuiltIn } from "../engine/protocol";
 import { t } from "../i18n";
 import { galleryGroups, pictureOf } from "../scenes/gallery";
-import { exportScenes, forgetScene, keptScenes } from "../scenes/library";
+import { exportScenes, forgetScene, forgottenScene, keptScenes, rememberScene } from "../scenes/library";
 import { usePlayground } from "./context";
 import { Dialog } from "./dialog";
 import { takeIn, runText } from "./editor";
@@ -84,6 +84,12 @@ function Taking() {
   const take = () => void chooseText(".json,application/json").then((found) => found !== null && takeIn(playground, found)).catch((error: Error) => playground.say(error.message));
   return (
     <>
+      {forgottenScene.value && (
+        <p class="row">
+          <span>{t().forgotten(forgottenScene.value.name)}</span>
+          <IconButton icon="undo" text label={t().undo} onPress={rememberScene} />
+        </p>
+      )}
       <p class="hint">{t().keptHere(location.host)}</p>
       <div class="row">
         {keptScenes.value.length > 0 && <IconButton icon="save" text label={t().exportAll} onPress={() => download("hyperbody-scenes.json", exportScenes(), "application/json")} />}

@@ -49,17 +49,19 @@ interface ButtonProps {
 }
 
 /** What was clicked gives the keyboard back to the world: the next Space pauses. A press by key keeps its place. */
-function press(event: MouseEvent, act: () => void): void {
-  const button = event.currentTarget as HTMLElement;
-  if (event.detail > 0 && !button.closest("[role=dialog]")) button.blur();
-  act();
+export function byHand(act: () => void): (event: MouseEvent) => void {
+  return (event) => {
+    const button = event.currentTarget as HTMLElement;
+    if (event.detail > 0 && !button.closest("[role=dialog]")) button.blur();
+    act();
+  };
 }
 
 /** A button with an icon; its label is its tooltip and what screen readers say, and shown where `text` is set. */
 export function IconButton({ icon, label, onPress, pressed, text, disabled, kind }: ButtonProps) {
   return (
     <button
-      type="button" class={`button ${kind ?? ""}`} title={label} aria-label={label} aria-pressed={pressed} disabled={disabled} onClick={(event) => press(event, onPress)}
+      type="button" class={`button ${kind ?? ""}`} title={label} aria-label={label} aria-pressed={pressed} disabled={disabled} onClick={byHand(onPress)}
     >
       <Icon name={icon} />
       {text && <span>{label}</span>}

@@ -2,7 +2,7 @@
 import { shapesFor } from "../scenes/shapes";
 import { t } from "../i18n";
 import { usePlayground } from "./context";
-import { IconButton } from "./icons";
+import { byHand, IconButton } from "./icons";
 import { shapesOpen } from "./state";
 
 export function ShapePalette() {
@@ -16,7 +16,7 @@ export function ShapePalette() {
         {shapesFor(dimension).map(({ name, icon, shape }) => {
           const label = t().shape[name];
           return (
-            <button key={name} type="button" class="button shape" title={label} aria-label={`${t().shapes}: ${label}`} data-shape={name} onClick={() => void playground.spawn(shape, label)}>
+            <button key={name} type="button" class="button shape" title={label} aria-label={`${t().shapes}: ${label}`} data-shape={name} onClick={byHand(() => void playground.spawn(shape, label))}>
               <svg class="icon" viewBox="0 0 24 24" aria-hidden="true"><path d={icon} /></svg>
               <span>{label}</span>
             </button>

@@ -2,7 +2,7 @@
 import { t } from "../i18n";
 import { usePlayground } from "./context";
 import { sceneWords } from "./gallery";
-import { IconButton } from "./icons";
+import { byHand, IconButton } from "./icons";
 import { sheet, toggleSheet, tourStep } from "./state";
 import { xr } from "../input/xr/session";
 
@@ -23,7 +23,7 @@ export function TopBar() {
         <IconButton icon="grid" text kind="accent" label={t().scenes} pressed={sheet.value === "gallery"} onPress={() => toggleSheet("gallery")} />
         <IconButton icon="tour" text label={t().tour} pressed={tourStep.value !== null} onPress={() => (tourStep.value = tourStep.value === null ? 0 : null)} />
         {scene?.dimension === 3 && (
-          <button type="button" class="button" aria-pressed={playground.flatland.value} onClick={() => playground.setFlatland(!playground.flatland.value)}><span>{t().flatland}</span></button>
+          <button type="button" class="button" aria-pressed={playground.flatland.value} onClick={byHand(() => playground.setFlatland(!playground.flatland.value))}><span>{t().flatland}</span></button>
         )}
         <IconButton icon="code" kind="wide-only" label={t().editor} pressed={sheet.value === "editor"} onPress={() => toggleSheet("editor")} />
         {xr.supported.value && <IconButton icon="vr" label={t().enterVr} onPress={() => void xr.enter(playground)} />}

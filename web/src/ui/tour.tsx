@@ -1,7 +1,8 @@
 // The guided tour: two minutes in which the world shows itself. Each step sets the scene, moves the slice, says one or two
 // sentences, and leaves the hands free.
 import { useEffect } from "preact/hooks";
-import type { Playground } from "../app/playground";
+import type { Load, Playground } from "../app/playground";
+import { calm } from "../app/settings";
 import { t } from "../i18n";
 import type { Words } from "../i18n/en";
 import { allScenes } from "../scenes/gallery";
@@ -40,9 +41,23 @@ function turnBackAndForth(playground: Playground, elapsed: number): void {
   if (elapsed > 1) playground.slice.turnBy(0, 0, (wanted - now) * 0.06);
 }
 
+/** What ran when the tour began. */
+let before: Promise<Load | null> | null = null;
+
+/** Notes what runs, or brings it back. */
+function keepOrBringBack(playground: Playground, running: boolean): void {
+  if (running) before ??= playground.now().catch(() => null);
+  else if (before) {
+    const kept = before;
+    before = null;
+    void kept.then((load) => load && playground.goBackTo({ ...load, again: false }));
+  }
+}
+
 export function Tour() {
   const playground = usePlayground();
   const index = tourStep.value;
+  useEffect(() => keepOrBringBack(playground, index !== null), [index === null, playground]);
   useEffect(() => {
     if (index === null) return;
     sheet.value = null;
@@ -66,6 +81,8 @@ function run(playground: Playground, step: Step, next: () => void): () => void {
   let ended = false;
   let began = performance.now();
   const tick = () => {
+    // Who asked for less motion turns the pages, and nothing moves by itself.
+    if (calm.value) return;
     const elapsed = (performance.now() - began) / 1000;
     step.during?.(playground, elapsed);
     if (elapsed > step.seconds) next();
@@ -73,6 +90,7 @@ function run(playground: Playground, step: Step, next: () => void): () => void {
   const begin = () => {
     if (ended) return;
     began = performance.now();
+    if (playground.paused.value) playground.setPaused(false);
     step.act?.(playground);
     playground.onPicture.add(tick);
   };

@@ -9,12 +9,11 @@ export const SLOW_SHARE = 0.85;
 
 export function Transport() {
   const playground = usePlayground();
-  const readout = playground.readout.value;
   const paused = playground.paused.value;
   const slow = playground.speed.value < 1;
   return (
     <section class="transport glass" aria-label={t().play}>
-      <IconButton icon="undo" label={t().undo} disabled={!readout?.history.undo} onPress={() => void playground.undo()} />
+      <IconButton icon="undo" label={t().undo} disabled={!playground.canUndo} onPress={() => void playground.undo()} />
       <IconButton icon="reset" label={t().reset} onPress={() => playground.reset()} />
       <IconButton icon={paused ? "play" : "pause"} kind="primary" label={paused ? t().play : t().pause} onPress={() => playground.togglePaused()} />
       <IconButton icon="step" label={t().stepOnce} onPress={() => playground.stepOnce()} />
