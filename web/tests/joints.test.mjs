@@ -38,15 +38,20 @@ function fromSegment(place, a, b) {
   return Math.hypot(place.x - a.x - t * dx, place.y - a.y - t * dy);
 }
 
+/** Waits until a few pictures have been drawn: a camera that was halted has come to rest, and what is switched has been seen. */
+const pictures = (page) => page.evaluate(async () => {
+  for (let k = 0; k < 20; k++) await new Promise((resolve) => requestAnimationFrame(resolve));
+});
+
 /** The paused page with and without joints. */
 async function bothPictures(page) {
   await page.keyboard.press("Space");
   await until(page, () => window.hyperbody.frame.paused);
   await page.addStyleTag({ content: "#app > :not(.flatland) { visibility: hidden }" });
-  await page.waitForTimeout(600);
+  await pictures(page);
   const drawn = await page.screenshot();
   await page.keyboard.press("4");
-  await page.waitForTimeout(400);
+  await pictures(page);
   return [drawn, await page.screenshot()];
 }
 

@@ -58,12 +58,20 @@ test("a dropped scene runs; a broken one names its line and the running scene go
 
 test("a scene travels in a link", async () => {
   const context = await browser.newContext(DESKTOP);
+  await context.grantPermissions(["clipboard-read", "clipboard-write"]);
   const { page } = await open(context, server.address);
   await page.keyboard.press("x");
   await page.getByTestId("editor-text").fill(GOOD.replace("Dropped", "Travelled"));
   await page.getByRole("button", { name: "Copy link" }).click();
+  await page.getByText("Link copied").waitFor();
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  assert.match(link, /#scene=/);
+  assert.equal(new URL(page.url()).hash, "", "the address says what runs, and this text does not");
+  await page.getByRole("button", { name: "Run scene" }).click();
+  await until(page, () => window.hyperbody.scene.title === "Travelled");
+  await page.getByRole("button", { name: "Copy link" }).click();
   await until(page, () => location.hash.startsWith("#scene="));
-  const link = page.url();
+  assert.equal(page.url().split("#")[1], link.split("#")[1]);
   const second = await context.newPage();
   await second.goto(link);
   await until(second, () => window.hyperbody?.scene?.title === "Travelled");
