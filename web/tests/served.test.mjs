@@ -2,11 +2,13 @@
 // outlives the program. And as `--export` writes it: once loaded, it needs no server.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { get } from "node:http";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, relative, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
+import { brotliDecompressSync, gunzipSync } from "node:zlib";
 import { DESKTOP, launch, open, serve, until } from "./support.mjs";
 
 /** The program, where this repository builds it; HYPERBODY names another. */
@@ -18,6 +20,17 @@ const skip = !program && !process.env.CI && "the program is not built: `cargo xt
 /** From the start of the load to the first slice, ms; and how many loads there are to show it, since others use the machine too. */
 const MOST_MS = 3000;
 const LOADS = 5;
+
+/** All that can be fetched, bytes as they are sent. */
+const MOST_BYTES = 1.5e6;
+
+/** An answer as it comes: `fetch` unpacks it. */
+const raw = (url, headers) => new Promise((resolve, reject) => {
+  get(url, { headers }, (answer) => {
+    const parts = [];
+    answer.on("data", (part) => parts.push(part)).on("end", () => resolve({ headers: answer.headers, body: Buffer.concat(parts) })).on("error", reject);
+  }).on("error", reject);
+});
 
 let browser, child, address;
 before(async () => {
@@ -61,6 +74,28 @@ test("what is served is isolated and typed, and kept where its name says what it
   assert.match(answer.headers.get("content-type"), /javascript/);
   assert.match(answer.headers.get("cache-control"), /immutable/);
   assert.equal((await fetch(`${address}assets/none.js`)).status, 404);
+});
+
+test("what is sent weighs at most 1.5 MB, and unpacks to what there is", { skip }, async (t) => {
+  const dist = fileURLToPath(new URL("../dist/", import.meta.url));
+  const names = readdirSync(dist, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile() && !entry.name.endsWith(".br"));
+  let total = 0;
+  for (const entry of names) {
+    const path = join(entry.parentPath, entry.name);
+    const name = relative(dist, path).split(sep).join("/");
+    const { headers, body } = await raw(address + name, { "accept-encoding": "gzip, br" });
+    total += body.length;
+    // The one that keeps the page for times without a net is another one here.
+    if (name === "sw.js") continue;
+    const plain = headers["content-encoding"] === "br" ? brotliDecompressSync(body) : headers["content-encoding"] === "gzip" ? gunzipSync(body) : body;
+    assert.ok(plain.equals(readFileSync(path)), `${name} is something else`);
+  }
+  t.diagnostic(`${names.length} files, ${(total / 1e6).toFixed(3)} MB as they are sent`);
+  assert.ok(total <= MOST_BYTES, `${(total / 1e6).toFixed(3)} MB are sent`);
+  // Who does not take brotli is sent gzip, and who takes neither the file as it is.
+  const engine = names.find((entry) => entry.name.endsWith(".wasm")).name;
+  assert.equal((await raw(`${address}assets/${engine}`, { "accept-encoding": "gzip, br;q=0" })).headers["content-encoding"], "gzip");
+  assert.equal((await raw(`${address}assets/${engine}`, {})).headers["content-encoding"], undefined);
 });
 
 test("what `--export` writes runs from another server, and without one once it is loaded", { skip }, async () => {

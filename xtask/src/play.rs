@@ -69,8 +69,7 @@ pub(crate) fn page() -> Outcome {
     println!("==> the page");
     packages()?;
     let web = web();
-    let sources =
-        ["src", "public", "index.html", "package-lock.json", "tsconfig.json", "vite.config.ts", "tools/offline.mjs"];
+    let sources = ["src", "public", "index.html", "package-lock.json", "tsconfig.json", "vite.config.ts", "tools"];
     let changed = sources.iter().filter_map(|name| newest(&web.join(name))).max();
     if is_newer(&web.join("dist/index.html"), changed) {
         return Ok(());
@@ -80,12 +79,8 @@ pub(crate) fn page() -> Outcome {
     let script = root().join("crates/hyperbody-cli/build.rs");
     let touched = fs::File::options().append(true).open(&script).and_then(|file| file.set_modified(SystemTime::now()));
     touched.map_err(|error| format!("{}: {error}", script.display()))?;
-    let (plain, packed) = weight(&web.join("dist"))?;
-    println!(
-        "    {:.2} MB, {:.2} MB with gzip; with brotli about two thirds of that",
-        plain as f64 / 1e6,
-        packed as f64 / 1e6
-    );
+    let (plain, sent) = weight(&web.join("dist"))?;
+    println!("    {:.2} MB, {:.2} MB as it is sent", plain as f64 / 1e6, sent as f64 / 1e6);
     Ok(())
 }
 
@@ -131,26 +126,24 @@ fn version(text: &str) -> Vec<u32> {
     text.trim_start_matches('v').split('.').map(|part| part.parse().unwrap_or(0)).collect()
 }
 
-/// Bytes of all files of a folder, and of them with gzip as they are served.
+/// Bytes of all files of a folder, and of what is sent of them: the page's build puts what brotli makes of a file beside it.
 fn weight(folder: &Path) -> Outcome<(u64, u64)> {
     let broken = |error: std::io::Error| format!("{}: {error}", folder.display());
-    let (mut plain, mut packed) = (0, 0);
+    let (mut plain, mut sent) = (0, 0);
     for entry in fs::read_dir(folder).map_err(broken)? {
         let path = entry.map_err(broken)?.path();
         if path.is_dir() {
-            let (more_plain, more_packed) = weight(&path)?;
+            let (more_plain, more_sent) = weight(&path)?;
             plain += more_plain;
-            packed += more_packed;
-        } else {
-            let bytes = fs::read(&path).map_err(broken)?;
-            let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
-            std::io::Write::write_all(&mut encoder, &bytes).map_err(broken)?;
-            let smaller = encoder.finish().map_err(broken)?.len().min(bytes.len());
-            plain += bytes.len() as u64;
-            packed += smaller as u64;
+            sent += more_sent;
+        } else if path.extension().is_none_or(|extension| extension != "br") {
+            let size = fs::metadata(&path).map_err(broken)?.len();
+            let packed = PathBuf::from(format!("{}.br", path.display()));
+            plain += size;
+            sent += fs::metadata(packed).map_or(size, |data| data.len());
         }
     }
-    Ok((plain, packed))
+    Ok((plain, sent))
 }
 
 /// When a file, or the newest file of a folder, was changed; `None` if there is none.

@@ -71,7 +71,8 @@ fn answer(request: Request, site: &Site) {
                     if is_known(&request, &tag) {
                         unchanged(&tag)
                     } else {
-                        file(path, content, accepts_gzip(&request), &tag)
+                        let packed = accepts(&request, "br").then(|| site.with_brotli(path)).flatten();
+                        file(path, content, packed, accepts(&request, "gzip"), &tag)
                     }
                 }
                 (None, None) => text(404, "There is no such file here."),
@@ -120,17 +121,18 @@ fn unchanged(tag: &str) -> Answer {
     headers.into_iter().chain(ISOLATION).filter_map(header).fold(response, Response::with_header)
 }
 
-fn file(path: &str, content: Content, gzip: bool, tag: &str) -> Answer {
+/// Sends a file as small as it is here and the browser takes it: with brotli, with gzip, or as it is.
+fn file(path: &str, content: Content, brotli: Option<Vec<u8>>, gzip: bool, tag: &str) -> Answer {
     let Content { compressed, bytes, immutable } = content;
-    let sends_gzip = compressed && gzip;
-    let Ok(bytes) = plain(compressed && !gzip, &bytes) else { return text(500, "This file is damaged.") };
+    let encoding = if brotli.is_some() { Some("br") } else { (compressed && gzip).then_some("gzip") };
+    let Some(bytes) = brotli.or_else(|| plain(compressed && !gzip, &bytes).ok()) else {
+        return text(500, "This file is damaged.");
+    };
     let caching = if immutable { "public, max-age=31536000, immutable" } else { "no-cache" };
     let mut response = Response::from_data(bytes);
     let mut headers = vec![("Content-Type", mime_type(path)), ("Cache-Control", caching), ("Vary", "Accept-Encoding")];
     headers.push(("ETag", tag));
-    if sends_gzip {
-        headers.push(("Content-Encoding", "gzip"));
-    }
+    headers.extend(encoding.map(|encoding| ("Content-Encoding", encoding)));
     headers.extend(ISOLATION);
     for header in headers.into_iter().filter_map(header) {
         response.add_header(header);
@@ -156,9 +158,14 @@ fn header((name, value): (&str, &str)) -> Option<Header> {
     Header::from_bytes(name, value).ok()
 }
 
-fn accepts_gzip(request: &Request) -> bool {
-    let mut encodings = request.headers().iter().filter(|header| header.field.equiv("Accept-Encoding"));
-    encodings.any(|header| header.value.as_str().contains("gzip"))
+/// Whether the browser takes this compression.
+fn accepts(request: &Request, encoding: &str) -> bool {
+    let mut lists = request.headers().iter().filter(|header| header.field.equiv("Accept-Encoding"));
+    let is_it = |each: &str| {
+        let (name, weight) = each.split_once(';').unwrap_or((each, ""));
+        name.trim().eq_ignore_ascii_case(encoding) && !matches!(weight.trim(), "q=0" | "q=0.0" | "q=0.00" | "q=0.000")
+    };
+    lists.any(|header| header.value.as_str().split(',').any(is_it))
 }
 
 /// By the end of a name.

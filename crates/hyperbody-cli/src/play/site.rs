@@ -90,6 +90,14 @@ impl Site {
         }
     }
 
+    /// The file of an address with brotli, if the page has it so: the page's builder puts it beside the file.
+    pub(crate) fn with_brotli(&self, name: &str) -> Option<Vec<u8>> {
+        let name = if name.is_empty() { "index.html" } else { name };
+        let packed = self.file(&format!("{name}.br"))?;
+        // Brotli's bytes do not shrink further; `compressed` would be gzip around them.
+        (!packed.compressed).then_some(packed.bytes)
+    }
+
     /// All files of the page with their names, as they are.
     pub(crate) fn files(&self) -> Result<Vec<(String, Vec<u8>)>, Failure> {
         if let Some(folder) = &self.folder {
