@@ -57,6 +57,39 @@ test("the mouse selects a body, pulls it, and the panel's numbers follow", async
   await context.close();
 });
 
+for (const scene of ["pyramid2d", "dominoes3d", "flatland_pile3d"]) {
+  test(`the first drag of a newcomer, in ${scene}, moves what is under the pointer, and every body is where the page says`, async () => {
+    const context = await browser.newContext(DESKTOP);
+    const { page, errors } = await open(context, server.address, { scene });
+    await page.keyboard.press("v");
+    const bodies = await page.evaluate(() => window.hyperbody.scene.bodies.filter((body) => body.kind === "dynamic").map(({ id }) => id));
+    const places = await Promise.all(bodies.map((body) => whereIs(page, body)));
+    assert.ok(places.every(Boolean), "some body is nowhere");
+    const body = bodies.at(-1);
+    const before = await centreOf(page, body);
+    await page.keyboard.press("p");
+    await until(page, (id) => window.hyperbody.selected === id, body);
+    await page.keyboard.down("Alt");
+    await page.keyboard.down("i");
+    await until(page, ([id, height, stride]) => {
+      const { centres } = window.hyperbody.frame;
+      for (let at = 0; at < centres.length; at += stride) if (centres[at] === id) return centres[at + 2] > height;
+      return false;
+    }, [body, before[1] + 0.3, 4 + (await page.evaluate(() => window.hyperbody.frame.slice.off.length))]);
+    await page.keyboard.up("i");
+    await page.keyboard.up("Alt");
+    const at = await whereIs(page, body);
+    await page.mouse.move(at.x, at.y);
+    await page.mouse.down();
+    for (let k = 1; k <= 8; k++) await page.mouse.move(at.x + 4 * k, at.y - 2 * k);
+    await until(page, () => window.hyperbody.frame.hands.length === 1);
+    await page.mouse.up();
+    await until(page, () => window.hyperbody.frame.hands.length === 0);
+    assert.deepEqual(errors, []);
+    await context.close();
+  });
+}
+
 test("a second finger pushes what the first one holds along w", async () => {
   const context = await browser.newContext(PHONE);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });

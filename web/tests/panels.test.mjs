@@ -116,6 +116,66 @@ test("gravity off: what is thrown up does not come down; added bodies can be und
   await context.close();
 });
 
+test("what was started again, or left for another scene, comes back by undo; the tour gives it back by itself", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "smash4d" });
+  const isThere = (count, name = "smash4d") => until(page, ([bodies, scene]) => window.hyperbody.scene.bodies.length === bodies && window.hyperbody.sceneName === scene, [count, name]);
+  const bodies = await page.evaluate(() => window.hyperbody.scene.bodies.length);
+  await page.locator("[data-shape=ball]").click();
+  await isThere(bodies + 1);
+  await page.keyboard.press("Backspace");
+  await isThere(bodies);
+  await page.keyboard.press("Control+z");
+  await isThere(bodies + 1);
+  // From there a new start is that of the scene, not of the moment that came back.
+  await page.keyboard.press("Backspace");
+  await isThere(bodies);
+  await page.keyboard.press("Control+z");
+  await isThere(bodies + 1);
+  await page.keyboard.press("c");
+  await page.locator("[data-scene=dice5d]").click();
+  await until(page, () => window.hyperbody.sceneName === "dice5d");
+  await page.keyboard.press("Control+z");
+  await isThere(bodies + 1);
+  await page.getByRole("button", { name: "Tour" }).click();
+  await until(page, () => window.hyperbody.sceneName === "hello4d");
+  await page.getByRole("button", { name: "End tour" }).click();
+  await isThere(bodies + 1);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("what was written in the editor is kept aside when something else is dropped, and a deleted scene comes back", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  const area = page.getByTestId("editor-text");
+  await page.keyboard.press("x");
+  await until(page, () => document.querySelector("[data-testid=editor-text]").value.includes("tesseract"));
+  await page.keyboard.press("Escape");
+  // What nobody has touched is the running scene's.
+  await page.keyboard.press("c");
+  await page.locator("[data-scene=dice5d]").click();
+  await until(page, () => window.hyperbody.sceneName === "dice5d");
+  await page.keyboard.press("x");
+  await until(page, () => document.querySelector("[data-testid=editor-text]").value.includes("Dice of five dimensions"));
+  await area.fill("an hour of work");
+  await drop(page, "not json at all");
+  await until(page, () => document.querySelector("[data-testid=editor-text]").value === "not json at all");
+  await page.getByRole("button", { name: "Bring mine back" }).click();
+  assert.equal(await area.inputValue(), "an hour of work");
+  await area.fill(GOOD);
+  await page.getByRole("button", { name: "Save here" }).click();
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("c");
+  const own = page.locator(".own");
+  await own.getByRole("button", { name: "Delete" }).click();
+  await until(page, () => document.querySelectorAll(".own").length === 0);
+  await page.locator(".gallery").getByRole("button", { name: "Undo" }).click();
+  await own.getByText("Dropped").waitFor();
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("down can be any direction: here that of the picture, through a slice that is turned", async () => {
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });

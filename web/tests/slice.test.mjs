@@ -87,6 +87,19 @@ test("a ball of radius 1 is cut 0.6 off its middle into a ball of radius 0.8", a
   await context.close();
 });
 
+test("the knobs say how the slice is turned", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  const knob = (name) => page.getByRole("slider", { name: `Turn the slice in ${name}` });
+  assert.equal(await knob("yw").getAttribute("aria-valuenow"), "0");
+  await page.keyboard.press("Shift+T");
+  await page.waitForFunction(() => document.querySelector(".compass [aria-label='Turn the slice in yw']")?.getAttribute("aria-valuenow") === "90");
+  assert.match(await knob("yw").locator(".knob-hand").getAttribute("transform"), /rotate\(90/);
+  assert.equal(await knob("xw").getAttribute("aria-valuenow"), "0");
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("the slice goes along with the double pendulum until somebody moves it, and again after a new start only if nobody did", async () => {
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "pendulum4d" });

@@ -1,5 +1,6 @@
 // What needs no picture: parts of the page, read through its builder and run under Node.
 import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { createServer } from "vite";
@@ -185,6 +186,20 @@ test("what a frame fills has its normals before the first frame: without them th
   const { mesh } = new SurfaceLayer(new BodyStyles());
   assert.deepEqual(Object.keys(mesh.geometry.attributes).sort(), ["color", "normal", "position"]);
   assert.equal(mesh.geometry.drawRange.count, 0);
+});
+
+test("every scene has its picture, its words in both languages, and a group with a name", async () => {
+  const { galleryGroups } = await vite.ssrLoadModule("/src/scenes/gallery.ts");
+  const { en } = await vite.ssrLoadModule("/src/i18n/en.ts");
+  const { zh } = await vite.ssrLoadModule("/src/i18n/zh.ts");
+  const { Engine } = await import("./engine/engine.mjs").then(() => import("../src/engine/pkg/hyperbody_wasm.js"));
+  for (const { group, scenes } of galleryGroups(JSON.parse(Engine.builtins()))) {
+    assert.ok(en.group[group] && zh.group[group], `the group ${group} has no name`);
+    for (const { name } of scenes) {
+      assert.ok(existsSync(new URL(`../public/gallery/${name}.avif`, import.meta.url)), `${name} has no picture: node tools/pictures.mjs ${name}`);
+      assert.ok(zh.scene[name]?.title && zh.scene[name]?.sentence, `${name} has no words in Chinese`);
+    }
+  }
 });
 
 test("joints of a frame fill their buffers, and no more is allocated once they have grown", async () => {

@@ -168,7 +168,7 @@ async function press(page, from, at) {
 const turned = (x, y, pitch) => [x, y * Math.cos(pitch), y * Math.sin(pitch)];
 
 /** Where the panel's button of this row and column is while the left hand points straight ahead, in the room. */
-const onWrist = (row, column) => turned(0.1 * (column - 1), 0.064 - 0.0363 * row, -0.7).map((value, axis) => value + [-0.2, 1.3, -0.34][axis]);
+const onWrist = (row, column) => turned(0.1 * (column - 1), 0.0825 - 0.03625 * row, -0.7).map((value, axis) => value + [-0.2, 1.3, -0.34][axis]);
 const leftAhead = async (page) => aim(page, await inRoom(page, [-0.2, 1.2, -0.4]), await inRoom(page, [-0.2, 1.2, -1.4]), "left");
 const FROM = [0.2, 1.4, 0];
 
@@ -183,7 +183,7 @@ test("the panel is on the left wrist, for the right hand to press; with one hand
   // Without a left hand, in the room: a turn about y after the one about x.
   await page.evaluate(() => (window.headset.controllers.left.connected = false));
   await page.waitForTimeout(500);
-  const [x, y, z] = turned(-0.1, 0.064, -0.2);
+  const [x, y, z] = turned(-0.1, 0.0825, -0.2);
   const [c, s] = [Math.cos(0.6), Math.sin(0.6)];
   await press(page, FROM, [-0.42 + c * x + s * z, 1.25 + y, -0.6 - s * x + c * z]);
   await until(page, () => !window.hyperbody.frame.paused);
@@ -207,7 +207,7 @@ test("the panel has the palette: shapes are added from it until it is closed", a
   // "Add a body"; then the first and the last shape of four dimensions.
   await press(page, FROM, onWrist(1, 2));
   assert.match(await added(0, 1), /Box/);
-  assert.match(await added(4, 0), /spherinder/);
+  assert.match(await added(4, 0), /Spherinder/);
   assert.equal((await names()).length, before.length + 2);
   // Below the last shape there is nothing to press; "Close" brings the usual buttons back, of which this one stops time.
   await press(page, FROM, onWrist(5, 2));
@@ -232,6 +232,44 @@ test("a pressed stick teleports", async () => {
   await until(page, ([x, z]) => Math.abs(window.hyperbody.viewer.position[0] - x - 1) < 0.15 && Math.abs(window.hyperbody.viewer.position[2] - z + 1) < 0.15, [before[0], before[2]]);
   await page.evaluate(() => window.headset.activeSession.end());
   await until(page, () => !window.hyperbody.viewer.presenting);
+  await context.close();
+});
+
+for (const [scene, what] of [["cradle2d", "two dimensions"], ["dominoes3d", "three dimensions"], ["flatland_solids3d", "Flatland"]]) {
+  test(`a world of ${what} is drawn in VR, and its panel works`, async () => {
+    const context = await withHeadset();
+    const { page, errors } = await open(context, server.address, { scene });
+    await enter(page);
+    await leftAhead(page);
+    await page.waitForTimeout(1000);
+    assert.deepEqual(errors, []);
+    await press(page, FROM, onWrist(0, 0));
+    await until(page, () => window.hyperbody.frame.paused);
+    // The next scene, from its last row; and one stands in front of that.
+    const before = await page.evaluate(() => window.hyperbody.viewer.position);
+    await press(page, FROM, onWrist(6, 1));
+    await until(page, (name) => window.hyperbody.sceneName !== name, scene);
+    await until(page, (place) => window.hyperbody.viewer.position.some((value, axis) => Math.abs(value - place[axis]) > 0.05), before);
+    assert.deepEqual(errors, []);
+    await context.close();
+  });
+}
+
+test("a teleport puts the head above the ring, wherever in the room it is", async () => {
+  const context = await withHeadset();
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await page.evaluate(() => window.headset.position.set(0.8, 1.6, 0.5));
+  await enter(page);
+  const before = await page.evaluate(() => window.hyperbody.viewer.position);
+  const scale = await page.evaluate(() => window.hyperbody.viewer.scale);
+  const goal = [before[0] + 1.5, before[1], before[2] - 0.5];
+  await aim(page, [before[0] + 0.5, before[1] + 1.4, before[2]], goal);
+  await page.waitForTimeout(300);
+  await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 1));
+  await page.waitForTimeout(300);
+  await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 0));
+  await until(page, ([x, z]) => Math.abs(window.hyperbody.viewer.position[0] - x) < 0.15 && Math.abs(window.hyperbody.viewer.position[2] - z) < 0.15, [goal[0] - 0.8 * scale, goal[2] - 0.5 * scale]);
+  assert.deepEqual(errors, []);
   await context.close();
 });
 

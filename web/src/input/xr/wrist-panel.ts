@@ -12,8 +12,8 @@ import { offName } from "../../ui/axes";
 import { SLOW_FACTOR, SLOW_SHARE } from "../../ui/transport";
 
 const WIDTH = 0.3;
-const HEIGHT = 0.27;
-const PIXELS = { width: 720, height: 648 };
+const HEIGHT = 0.30625;
+const PIXELS = { width: 720, height: 735 };
 const COLUMNS = 3;
 const HEADER = 126;
 /** A press on "back" goes so far into the past, s. */
