@@ -6,7 +6,7 @@ mod shape;
 
 use std::path::Path;
 
-use hyperbody_scene::{Scene, ShapeFile, built_in};
+use hyperbody_scene::{BUILT_IN, Scene, ShapeFile, built_in};
 
 use crate::arguments::InspectArguments;
 use crate::failure::Failure;
@@ -30,6 +30,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<(), Failure> {
     {
         return inspect_shape(arguments, &shape.map_err(with_dimension_hint)?);
     }
+    source::refuse_unknown_shape(&arguments.file, &BUILT_IN.map(|scene| scene.name))?;
     let scene: Scene = source::scene(&arguments.file)?;
     check_dimension(arguments, scene.dimension)?;
     let report = scene::report(&scene)?;

@@ -159,6 +159,9 @@ fn load(path: &Path, dimension: Option<u8>) -> Result<ShapeFile, Failure> {
     }
     let dimension = dimension.map(usize::from);
     let named = path.to_str().filter(|_| !path.exists()).and_then(|name| ShapeFile::named(name, dimension));
+    if named.is_none() {
+        source::refuse_unknown_shape(&path.to_string_lossy(), &[])?;
+    }
     let file = named.unwrap_or_else(|| ShapeFile::load(path, dimension))?;
     if !(4..=6).contains(&file.dimension) {
         let message = format!("is a shape of {} dimensions; sections in 3D are those of 4 to 6", file.dimension);

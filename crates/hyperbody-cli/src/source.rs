@@ -39,6 +39,23 @@ pub(crate) fn scene(argument: &str) -> Result<Scene, Failure> {
     })
 }
 
+/// Refuses an argument that is neither a file nor the name of a shape nor of `others`, and cannot be meant as a file.
+pub(crate) fn refuse_unknown_shape(argument: &str, others: &[&str]) -> Result<(), Failure> {
+    let path = Path::new(argument);
+    let symbol = argument.trim_start().starts_with('{');
+    if path.exists()
+        || others.contains(&argument)
+        || (!symbol && (path.extension().is_some() || path.components().count() != 1))
+    {
+        return Ok(());
+    }
+    let hint = ShapeFile::hint(argument, others);
+    let named = shortened(argument);
+    let or_scene = if others.is_empty() { "" } else { " or built-in scene" };
+    let message = format!("there is no file \"{named}\", and no regular polytope{or_scene} of that name{hint}");
+    Err(Failure::Input(message))
+}
+
 /// The recording of an argument; `None` if the file begins otherwise, or there is none.
 pub(crate) fn recording(argument: &str) -> Result<Option<Recording>, Failure> {
     let path = Path::new(argument);

@@ -96,6 +96,12 @@ impl OffFile {
         fine
     }
 
+    /// All coordinates, vertex by vertex.
+    #[must_use]
+    pub fn coordinates(&self) -> &[f64] {
+        &self.vertices
+    }
+
     /// The vertices that faces name, in their order; all if there are no faces.
     fn named_by_faces<const N: usize>(&self, vertices: Vec<Vector<N>>) -> Vec<Vector<N>> {
         let mut named = vec![self.elements(2).is_empty(); vertices.len()];

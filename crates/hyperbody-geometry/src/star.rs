@@ -69,18 +69,23 @@ pub fn symbol(name: &str) -> Result<Vec<Fraction>> {
     let entry = |part: &str| {
         let (p, d) = part.split_once('/').unwrap_or((part, "1"));
         let (p, d): (u32, u32) = (p.trim().parse().ok()?, d.trim().parse().ok()?);
-        (d >= 1 && p > 2 * d && p <= 100).then_some((p, d))
+        // {6/2} is two triangles, not one polygon.
+        (d >= 1 && p > 2 * d && p <= 100 && in_lowest_terms(p, d)).then_some((p, d))
     };
     inner.split(',').map(entry).collect::<Option<Vec<Fraction>>>().ok_or_else(|| {
         let known: Vec<String> = NAMES.iter().map(|(name, symbol)| format!("{name} {symbol}")).collect();
         GeometryError::new(
             UnknownName,
             format!(
-                "\"{name}\" is no star polytope: give a symbol such as {{5/2,5}}, with entries above 2, or one of {}",
+                "\"{name}\" is no star polytope: give a symbol such as {{5/2,5}}, with entries above 2 in lowest terms, or one of {}",
                 known.join(", ")
             ),
         )
     })
+}
+
+fn in_lowest_terms(p: u32, d: u32) -> bool {
+    (2..=d).all(|divisor| p % divisor != 0 || d % divisor != 0)
 }
 
 /// The surface of the regular polytope with this symbol, in one dimension more than the symbol has entries: vertices, polygons

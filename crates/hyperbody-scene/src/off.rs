@@ -6,7 +6,9 @@ use hyperbody::geometry::decompose::convex_cells;
 use hyperbody::geometry::off::{OffFile, parse};
 use hyperbody::geometry::regular::Size;
 use hyperbody::geometry::star;
+use hyperbody::geometry::tolerances::MAX_LENGTH;
 use hyperbody::geometry::{GeometryErrorKind, MassProperties};
+use hyperbody::math::Vector;
 use hyperbody::prelude::Polytope;
 
 use crate::build::shape_error;
@@ -29,6 +31,7 @@ pub(crate) fn read(text: &str, path: &str) -> Result<OffFile> {
 /// body.
 pub(crate) fn polytope<const N: usize>(text: &str, path: &str) -> Result<Polytope<N>> {
     let file = read(text, path)?;
+    within_limits(&file, path)?;
     closed(&file, path)?;
     let polytope = file.to_polytope::<N>().map_err(|error| shape_error(path, &error))?;
     if let Some(facet) = facet_inside_the_hull(&file, &polytope) {
@@ -49,6 +52,7 @@ pub(crate) fn polytope<const N: usize>(text: &str, path: &str) -> Result<Polytop
 pub(crate) fn mesh<const N: usize>(text: &str, path: &str) -> Result<Option<(Vec<usize>, MassProperties<N>)>> {
     let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
     let file = read(text, path)?;
+    within_limits(&file, path)?;
     let (Ok(hull), Some(points)) = (file.to_polytope::<N>(), file.vertices::<N>()) else {
         return Ok(None);
     };
@@ -120,6 +124,7 @@ pub(crate) const MAX_CUT_STAR_CELLS: usize = 1 << 16;
 pub(crate) fn cells<const N: usize>(text: &str, path: &str) -> Result<Vec<Polytope<N>>> {
     let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
     let file = read(text, path)?;
+    within_limits(&file, path)?;
     closed(&file, path)?;
     let hull = file.to_polytope::<N>().map_err(refuse)?;
     if facet_inside_the_hull(&file, &hull).is_none() {
@@ -129,35 +134,59 @@ pub(crate) fn cells<const N: usize>(text: &str, path: &str) -> Result<Vec<Polyto
     convex_cells(&points, &file.boundary::<N>().map_err(refuse)?).map_err(refuse)
 }
 
-/// Refuses a surface with a gap: what it bounds is not said.
+/// Refuses a surface with a gap, or with facets that branch: what it bounds is not said.
 fn closed(file: &OffFile, path: &str) -> Result<()> {
-    if is_closed(file) {
-        return Ok(());
-    }
+    let Some((ridge, facets)) = unpaired_ridge(file) else { return Ok(()) };
     let repeated = file.repeated_vertices();
-    let remedy = if repeated > 0 {
-        format!(
-            "{repeated} vertices stand where another one does: faces meet only in vertices of the same number, so merge them"
-        )
+    let (what, remedy) = if repeated > 0 {
+        let merge = "faces meet only in vertices of the same number, so merge them";
+        ("is open", format!("{repeated} vertices stand where another one does: {merge}"))
+    } else if facets == 1 {
+        let add = "add the facets that are missing, or list the vertices alone to get their hull";
+        ("is open", add.to_owned())
     } else {
-        "add the facets that are missing, or list the vertices alone to get their hull".to_owned()
+        (
+            "branches",
+            "look for facets that stand twice, and give bodies that share a ridge vertices of their own".to_owned(),
+        )
     };
-    let message =
-        format!("the surface is open: some ridge of it (in 3D an edge) does not bound exactly two facets; {remedy}");
+    let message = format!("the surface {what}: {ridge} bounds {facets} facets, and has to bound two; {remedy}");
+    Err(SceneError::new(ErrorKind::Shape, path, message.replace(" 1 facets", " only one facet")))
+}
+
+/// Refuses vertices farther out than a shape can be, before anything is computed of them.
+fn within_limits(file: &OffFile, path: &str) -> Result<()> {
+    let mut coordinates = file.coordinates().iter().enumerate();
+    let Some((index, value)) = coordinates.find(|(_, c)| c.abs() > MAX_LENGTH) else { return Ok(()) };
+    let message = format!(
+        "vertex {} has a coordinate of {value:e}: the limit is {MAX_LENGTH:e} m; scale the file down",
+        index / file.dimension()
+    );
     Err(SceneError::new(ErrorKind::Shape, path, message))
 }
 
 /// The number of the first listed facet that does not lie within one facet of the hull. A closed surface without one is the
 /// surface of the hull.
+///
+/// Facets of a convex surface are sought around one of their vertices, so that 100,000 of them take no time to speak of.
 fn facet_inside_the_hull<const N: usize>(file: &OffFile, polytope: &Polytope<N>) -> Option<usize> {
     let vertices = file.vertices::<N>()?;
     let tolerance = CONVEXITY_TOLERANCE * polytope.bounding_radius();
-    facets_as_vertices(file).iter().position(|facet| {
-        !polytope.facets().iter().any(|hull| {
-            facet.iter().all(|&vertex| {
-                vertices.get(vertex as usize).is_some_and(|&v| (hull.normal.dot(v) - hull.offset).abs() <= tolerance)
-            })
+    // Vertices of hulls are points that they were made of, to the bit.
+    let bits = |point: Vector<N>| point.0.map(|c| (c + 0.0).to_bits());
+    let corners: BTreeMap<[u64; N], usize> =
+        polytope.vertices().iter().enumerate().map(|(number, &corner)| (bits(corner), number)).collect();
+    let holds = |facet: &[u32], number: usize| {
+        let hull = &polytope.facets()[number];
+        facet.iter().all(|&vertex| {
+            vertices.get(vertex as usize).is_some_and(|&v| (hull.normal.dot(v) - hull.offset).abs() <= tolerance)
         })
+    };
+    facets_as_vertices(file).iter().position(|facet| {
+        let mut own = facet.iter().filter_map(|&vertex| corners.get(&bits(*vertices.get(vertex as usize)?)));
+        let around = own.next().map_or(&[][..], |&corner| polytope.facets_of_vertex(corner));
+        let beside = around.iter().any(|&number| holds(facet, number as usize));
+        !beside && !(0..polytope.facets().len()).any(|number| holds(facet, number))
     })
 }
 
@@ -179,6 +208,11 @@ fn facets_as_vertices(file: &OffFile) -> Vec<Vec<u32>> {
 
 /// Whether every ridge of the file bounds exactly two facets. Files that list no facets mean a hull, which is closed.
 pub(crate) fn is_closed(file: &OffFile) -> bool {
+    unpaired_ridge(file).is_none()
+}
+
+/// The first ridge that does not bound exactly two facets, in words, and how many it bounds.
+fn unpaired_ridge(file: &OffFile) -> Option<(String, usize)> {
     let facet_rank = file.dimension() - 1;
     let mut facets_at: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for facet in file.elements(facet_rank) {
@@ -193,7 +227,13 @@ pub(crate) fn is_closed(file: &OffFile) -> bool {
             *facets_at.entry(ridge).or_default() += 1;
         }
     }
-    facets_at.values().all(|&count| count == 2)
+    let (&(a, b), &count) = facets_at.iter().find(|(_, count)| **count != 2)?;
+    let ridge = if facet_rank == 2 {
+        format!("the edge from vertex {a} to {b}")
+    } else {
+        format!("face {a} of rank {}", facet_rank - 1)
+    };
+    Some((ridge, count))
 }
 
 #[cfg(test)]
@@ -205,7 +245,17 @@ mod tests {
     #[test]
     fn an_open_surface_is_told_from_a_closed_one() {
         assert!(!is_closed(&parse(OPEN_TETRAHEDRON).unwrap()));
-        assert!(polytope::<3>(OPEN_TETRAHEDRON, "x").unwrap_err().to_string().starts_with("x: the surface is open"));
+        let error = polytope::<3>(OPEN_TETRAHEDRON, "x").unwrap_err().to_string();
+        assert!(
+            error.starts_with("x: the surface is open: the edge from vertex 1 to 2 bounds only one facet"),
+            "{error}"
+        );
+        let twice = OPEN_TETRAHEDRON.replace("4 3 6", "4 5 6") + "3 1 2 3\n3 1 2 3\n";
+        let error = polytope::<3>(&twice, "x").unwrap_err().to_string();
+        assert!(error.starts_with("x: the surface branches: the edge from vertex 1 to 2 bounds 3 facets"), "{error}");
+        let far = OPEN_TETRAHEDRON.replace("0 0 1\n", "0 0 1e300\n");
+        let error = polytope::<3>(&far, "x").unwrap_err().to_string();
+        assert!(error.starts_with("x: vertex 3 has a coordinate of 1e300: the limit is 1e6 m"), "{error}");
         assert!(cells::<3>(OPEN_TETRAHEDRON, "x").is_err());
         let closed = OPEN_TETRAHEDRON.replace("4 3 6", "4 4 6") + "3 1 2 3\n";
         assert!(is_closed(&parse(&closed).unwrap()));
@@ -215,6 +265,44 @@ mod tests {
         assert!(is_closed(&file));
         let read = polytope::<4>(&file.to_string(), "").unwrap();
         assert_eq!(read.facets().len(), 8);
+    }
+
+    /// A sphere of 20,000 triangles: each against each facet of the hull were 4·10⁸ looks.
+    #[test]
+    fn many_facets_are_told_to_be_convex_in_no_time() {
+        let rings = 100;
+        let mut vertices = String::from("0 0 1\n0 0 -1\n");
+        let mut faces = String::new();
+        for ring in 1..rings {
+            for step in 0..rings {
+                // No two triangles are level, so that the hull keeps them all.
+                let (theta, phi) = (ring as f64 / rings as f64, (step as f64 + 0.5 * ring as f64) / rings as f64);
+                let (sin, cos) = (std::f64::consts::PI * theta).sin_cos();
+                let (y, x) = (2.0 * std::f64::consts::PI * phi).sin_cos();
+                vertices += &format!("{} {} {cos}\n", sin * x, sin * y);
+                let at = |ring: usize, step: usize| 2 + (ring - 1) * rings + step % rings;
+                if ring == 1 {
+                    faces += &format!("3 0 {} {}\n", at(1, step), at(1, step + 1));
+                }
+                if ring + 1 == rings {
+                    faces += &format!("3 1 {} {}\n", at(ring, step + 1), at(ring, step));
+                } else {
+                    faces += &format!("3 {} {} {}\n", at(ring, step), at(ring + 1, step), at(ring, step + 1));
+                    faces += &format!("3 {} {} {}\n", at(ring, step + 1), at(ring + 1, step), at(ring + 1, step + 1));
+                }
+            }
+        }
+        let count = (rings - 1) * rings;
+        let text = format!("OFF\n{} {} 0\n{vertices}{faces}", count + 2, 2 * count);
+        let start = std::time::Instant::now();
+        assert!(mesh::<3>(&text, "").unwrap().is_none(), "the sphere is convex");
+        let file = parse(&text).unwrap();
+        let hull = file.to_polytope::<3>().unwrap();
+        println!("a hull of {} facets, read and compared in {:.1?}", hull.facets().len(), start.elapsed());
+        let start = std::time::Instant::now();
+        assert_eq!(facet_inside_the_hull(&file, &hull), None);
+        // About 10 ms; all against all took seconds.
+        assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
     }
 
     #[test]

@@ -8,13 +8,13 @@ use hyperbody::geometry::star;
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::Shape;
 
-use crate::build::ShapeBuilder;
+use crate::build::{ShapeBuilder, read_beside};
 use crate::dimension::DIMENSIONS;
 use crate::error::{ErrorKind, SceneError, meant};
 use crate::json::Json;
 use crate::model::{Beside, PolytopeSpec, ShapeSpec};
 use crate::off;
-use crate::read::{At, MAX_FILE_BYTES, Result, read_text, shape};
+use crate::read::{At, MAX_FILE_BYTES, Result, join, read_text, shape};
 
 /// A shape and its dimension, read from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl ShapeFile {
     }
 
     /// Reads an OFF file, or the shape of a scene as JSON, such as `{"ball": {"radius": 1}}`. The dimension is that of the
-    /// shape's numbers or name; where these do not tell, as for a ball, it is `dimension`.
+    /// shape's numbers or name, or of the OFF file that it names; where these do not tell, as for a ball, it is `dimension`.
     ///
     /// # Errors
     /// If the file cannot be read, holds no shape, or one of another dimension, or does not tell and `dimension` is
@@ -77,6 +77,21 @@ impl ShapeFile {
         Some(settled.map(|dimension| Self { dimension, shape, closed: true, file }))
     }
 
+    /// What is to be said of a name that [`ShapeFile::named`] does not know: what a symbol has to look like, or the nearest name, of a
+    /// shape or one of `others`. Empty if nothing is near.
+    #[must_use]
+    pub fn hint(name: &str, others: &[&str]) -> String {
+        if name.trim_start().starts_with('{') {
+            return "; a Schläfli symbol has numbers from 3 on, or fractions above 2 in lowest terms, with commas between them: \
+                    {3,4,3}, {5/2,5}"
+                .to_owned();
+        }
+        let mut known: Vec<&str> = DIMENSIONS.flat_map(regular::names).chain(ALSO).collect();
+        known.extend(star::NAMES.iter().map(|(name, _)| *name));
+        known.extend(others);
+        meant(name, known).map_or(String::new(), |near| format!("; the nearest is \"{near}\""))
+    }
+
     fn read(path: &Path, dimension: Option<usize>) -> Result<Self> {
         let text = read_text(path, MAX_FILE_BYTES)?;
         let (shape, told, closed) = if is_off(path) {
@@ -85,7 +100,10 @@ impl ShapeFile {
             (ShapeSpec::Polytope(PolytopeSpec::File(name)), Some(file.dimension()), off::is_closed(&file))
         } else {
             let shape = shape(&At::root(&Json::parse(&text)?))?;
-            let told = shape.dimension();
+            let told = match shape.dimension() {
+                None => dimension_of_files(&shape, "", beside(path))?,
+                told => told,
+            };
             (shape, told, true)
         };
         let dimension = settled_dimension(&shape, told, dimension)?;
@@ -118,9 +136,36 @@ impl ShapeFile {
     where
         Dim<N>: EvenAlgebra,
     {
-        let folder = self.file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let shape = ShapeBuilder::for_sections(Beside { carried: None, folder: Some(folder) }).shape(&self.shape, "");
+        let shape = ShapeBuilder::for_sections(beside(&self.file)).shape(&self.shape, "");
         shape.map_err(|error| error.in_file(Some(&self.file)))
+    }
+}
+
+/// Where the files lie that a shape in this file names.
+fn beside(file: &Path) -> Beside<'_> {
+    let folder = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Beside { carried: None, folder: Some(folder) }
+}
+
+/// The dimension of the first OFF file that a shape at `path` names.
+fn dimension_of_files(shape: &ShapeSpec, path: &str, beside: Beside<'_>) -> Result<Option<usize>> {
+    let path = join(path, shape.key());
+    match shape {
+        ShapeSpec::Mesh { file } | ShapeSpec::Polytope(PolytopeSpec::File(file)) => {
+            let place = format!("{path}.file");
+            Ok(Some(off::read(&read_beside(beside, file, &place)?, &place)?.dimension()))
+        }
+        ShapeSpec::Rounded { shape, .. } => dimension_of_files(shape, &format!("{path}.shape"), beside),
+        ShapeSpec::Compound { parts } => {
+            for (index, part) in parts.iter().enumerate() {
+                let told = dimension_of_files(&part.shape, &format!("{path}.parts[{index}].shape"), beside)?;
+                if told.is_some() {
+                    return Ok(told);
+                }
+            }
+            Ok(None)
+        }
+        _ => Ok(None),
     }
 }
 

@@ -40,6 +40,21 @@ const STRUCTURE: &[Case] = &[
         &["bodies[2].shape.product.factors[0].axes", "unknown axis \"q\""],
     ),
     ("{\"ball\": {\"radius\": 0.5}}", "{\"mesh\": {\"file\": \"a.off\"}}", &["bodies[2].shape.mesh.file", "a.off"]),
+    (
+        "{\"ball\": {\"radius\": 0.5}}",
+        r#"{"product": {"factors": [{"shape": {"ball": {"radius": 0.5}}, "axes": "xy"}, {"shape": {"ball": {"radius": 0.5}}, "axes": "yz"}]}}"#,
+        &[
+            "bodies[2].shape.product.factors",
+            "y more than once and w not at all",
+            "\"xy\", \"yz\"",
+            "each of x, y, z, w",
+        ],
+    ),
+    (
+        "{\"ball\": {\"radius\": 0.5}}",
+        r#"{"pyramid": {"base": {"shape": {"ball": {"radius": 0.5}}, "axes": "xx"}, "height": 1}}"#,
+        &["bodies[2].shape.pyramid.base.axes", "\"xx\"", "3 axes, each once", "\"xzw\""],
+    ),
     ("\"ball\": {\"a\"", "\"hinge\": {\"a\"", &["joints[0].hinge", "has no \"plane\""]),
     ("\"ball\": {\"a\"", "\"bal\": {\"a\"", &["joints[0]", "\"bal\"", "nearest known one is \"ball\""]),
     ("\"dimension\": 4,", "", &["no \"dimension\""]),

@@ -51,6 +51,30 @@ fn regular_polytopes_need_no_file() {
     }
 }
 
+/// A mesh has the dimension of its file, wherever in the shape it stands.
+#[test]
+fn shapes_of_files_tell_their_dimension() {
+    let simplex = "4OFF\n5 0 0 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+    file("slice/told/simplex.off", simplex);
+    let parts = r#"{"compound": {"parts": [{"shape": {"ball": {"radius": 1}}}, {"shape": {"mesh": {"file": "simplex.off"}}}]}}"#;
+    for (number, text) in [
+        r#"{"mesh": {"file": "simplex.off"}}"#,
+        r#"{"rounded": {"shape": {"polytope": {"file": "simplex.off"}}, "radius": 0.1}}"#,
+        parts,
+    ]
+    .iter()
+    .enumerate()
+    {
+        let shape = file(&format!("slice/told/{number}.json"), text);
+        let report = json_of(&["inspect", shape.to_str().expect("UTF-8"), "--json"]);
+        assert_eq!(report["dimension"], 4, "{report}");
+    }
+    let shape = file("slice/told/wrong.json", r#"{"mesh": {"file": "nowhere.off"}}"#);
+    let output = hyperbody(&["inspect", shape.to_str().expect("UTF-8")]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && error.contains("mesh.file") && error.contains("nowhere.off"), "{error}");
+}
+
 #[test]
 fn curved_shapes_and_higher_dimensions_are_cut_too() {
     let shape = file("slice/ball.json", r#"{"ball": {"radius": 2}}"#);
@@ -161,6 +185,8 @@ fn what_cannot_be_cut_is_refused_with_the_reason() {
         ("nowhere.off", &[], "nowhere.off"),
         ("tetrahedron", &[], "sections in 3D are those of 4 to 6"),
         ("simplex", &[], "does not tell its dimension"),
+        ("600-cel", &[], "no regular polytope of that name; the nearest is \"600-cell\""),
+        ("{6/2}", &[], "fractions above 2 in lowest terms"),
         (&path(&mesh), &[], "read from .off files"),
     ];
     for (shape, more, reason) in cases {

@@ -95,6 +95,7 @@ where
                 compound_of(off::star_cells(name, *size, &path, self.most_star_cells)?).map_err(refuse(&path))
             }
             ShapeSpec::Pyramid { base, height } => {
+                product::check_base_axes::<N>(&base.axes, &format!("{path}.base.axes"))?;
                 let base = product::factor::<N>(base, self.beside, &format!("{path}.base"), depth)?;
                 Shape::pyramid(base, *height).map_err(refuse(&path))
             }
@@ -106,7 +107,9 @@ where
                         product::factor::<N>(factor, self.beside, &format!("{path}.factors[{index}]"), depth)
                     })
                     .collect();
-                Shape::product(made?).map_err(refuse(&path))
+                let made = made?;
+                product::check_axes::<N>(factors, &format!("{path}.factors"))?;
+                Shape::product(made).map_err(refuse(&path))
             }
             ShapeSpec::Compound { parts } => {
                 let mut placed = Vec::with_capacity(parts.len());
