@@ -3,13 +3,13 @@
 //! A collider's box in the tree stands off by a margin, so that a slow body stays in it for many steps; only colliders
 //! that left their box are put back and asked for new neighbours.
 
-use hyperbody_collision::DynamicTree;
 use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::Vector;
 
 use crate::World;
 use crate::narrow_phase::moved;
+use crate::near::Near;
 use crate::pairs::{Pair, PairRole, Surface, in_order};
 use crate::world::Collider;
 
@@ -88,31 +88,34 @@ impl<const N: usize> World<N> {
     }
 
     fn find_new_pairs(&mut self) {
-        let mut found = std::mem::take(&mut self.new_pairs);
+        let (mut found, mut near) = (std::mem::take(&mut self.new_pairs), std::mem::take(&mut self.near));
         found.clear();
+        near.bodies.clear();
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
         for (slot, collider) in self.colliders.iter().enumerate().map(|(s, c)| (s as u32, c)) {
             let Some(collider) = collider.as_ref().filter(|collider| collider.moved) else { continue };
-            match collider.proxy {
-                Some(_) => {
-                    query(&self.tree, &collider.fat_aabb, &mut self.tree_stack, |other| {
-                        found.push((slot.min(other), slot.max(other)));
-                    });
-                    for &plane in &self.half_spaces {
-                        if self.colliders[plane as usize].as_ref().is_some_and(|plane| boxes_meet(plane, collider)) {
-                            found.push((slot.min(plane), slot.max(plane)));
-                        }
-                    }
-                }
-                None => {
-                    for (other_slot, other) in self.colliders.iter().enumerate() {
-                        let other_slot = other_slot as u32;
-                        if other.as_ref().is_some_and(|other| other.proxy.is_some() && boxes_meet(collider, other)) {
-                            found.push((slot.min(other_slot), slot.max(other_slot)));
-                        }
-                    }
+            if collider.proxy.is_none() {
+                self.find_beside_half_space(slot, collider, &mut found);
+                continue;
+            }
+            if self.has_many_pieces(collider.body) {
+                near.bodies.push(collider.body);
+            } else {
+                self.tree.for_each_overlap(&collider.fat_aabb, &mut near.stack, |other| {
+                    found.push((slot.min(other), slot.max(other)));
+                    true
+                });
+            }
+            for &plane in &self.half_spaces {
+                if self.colliders[plane as usize].as_ref().is_some_and(|plane| boxes_meet(plane, collider)) {
+                    found.push((slot.min(plane), slot.max(plane)));
                 }
             }
+        }
+        near.bodies.sort_unstable();
+        near.bodies.dedup();
+        for index in 0..near.bodies.len() {
+            self.find_beside_pieces(near.bodies[index], &mut near, &mut found);
         }
         found.sort_unstable_by_key(in_order);
         found.dedup();
@@ -124,7 +127,27 @@ impl<const N: usize> World<N> {
                 self.pairs.insert(pair);
             }
         }
-        self.new_pairs = found;
+        (self.new_pairs, self.near) = (found, near);
+    }
+
+    fn find_beside_half_space(&self, slot: u32, plane: &Collider<N>, found: &mut Vec<(u32, u32)>) {
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+        for (other_slot, other) in self.colliders.iter().enumerate().map(|(s, c)| (s as u32, c)) {
+            if other.as_ref().is_some_and(|other| other.proxy.is_some() && boxes_meet(plane, other)) {
+                found.push((slot.min(other_slot), slot.max(other_slot)));
+            }
+        }
+    }
+
+    /// Neighbours of the pieces of a body that left their boxes.
+    fn find_beside_pieces(&self, body: u32, near: &mut Near<N>, found: &mut Vec<(u32, u32)>) {
+        near.boxes.clear();
+        for &slot in self.bodies.at(body).map_or(&[][..], |body| &body.colliders) {
+            let collider = self.colliders[slot as usize].as_ref();
+            let moved = collider.filter(|collider| collider.moved && collider.proxy.is_some());
+            near.boxes.extend(moved.map(|collider| (slot, collider.fat_aabb)));
+        }
+        self.for_each_near(body, near, |slot, other| found.push((slot.min(other), slot.max(other))));
     }
 
     /// A pair of two colliders that may touch, or `None` if they never do: of one body, or of two that leave each other alone.
@@ -143,13 +166,6 @@ impl<const N: usize> World<N> {
 
 /// Longest way that is counted, m: beyond, a nanometre is lost in each step.
 const LONGEST_WAY: f64 = 1e6;
-
-fn query<const N: usize>(tree: &DynamicTree<N>, aabb: &Aabb<N>, stack: &mut Vec<u32>, mut found: impl FnMut(u32)) {
-    tree.for_each_overlap(aabb, stack, |other| {
-        found(other);
-        true
-    });
-}
 
 /// The box and where it will be a step later.
 fn ahead<const N: usize>(tight: &Aabb<N>, motion: Vector<N>) -> Aabb<N> {

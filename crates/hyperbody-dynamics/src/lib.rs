@@ -45,6 +45,7 @@ pub mod joint;
 pub mod material;
 mod measure;
 mod narrow_phase;
+mod near;
 mod pairs;
 pub mod queries;
 pub mod rules;

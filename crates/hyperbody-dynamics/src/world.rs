@@ -12,6 +12,7 @@ use crate::filter::IgnoredPairs;
 use crate::handle::Arena;
 use crate::islands::Islands;
 use crate::joint::Joint;
+use crate::near::Near;
 use crate::pairs::{Pair, PairRole, Pairs};
 use crate::rules::Hook;
 use crate::seams::Seams;
@@ -133,7 +134,8 @@ pub struct World<const N: usize> {
     pub(crate) pool: Option<Pool>,
     pub(crate) solver: Solver<N>,
     pub(crate) scratch: Vec<Scratch<N>>,
-    pub(crate) tree_stack: Vec<u32>,
+    /// Buffers of the search for neighbours.
+    pub(crate) near: Near<N>,
     pub(crate) seams: Seams<N>,
     /// Buffers of the sweeps.
     pub(crate) continuous: Continuous<N>,
@@ -204,7 +206,7 @@ impl<const N: usize> World<N> {
             pool,
             solver: Solver::new(),
             scratch: (0..def.threads).map(|_| Scratch::default()).collect(),
-            tree_stack: Vec::new(),
+            near: Near::default(),
             seams: Seams::default(),
             continuous: Continuous::default(),
             new_pairs: Vec::new(),

@@ -14,6 +14,7 @@
 
 mod cells;
 mod envelope;
+mod group;
 
 pub use cells::cells;
 

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use hyperbody::geometry::MassProperties;
 use hyperbody::geometry::decompose::convex_cells;
 use hyperbody::geometry::off::{OffFile, parse};
 use hyperbody::geometry::regular::Size;
 use hyperbody::geometry::star;
 use hyperbody::geometry::tolerances::MAX_LENGTH;
-use hyperbody::geometry::{GeometryErrorKind, MassProperties};
 use hyperbody::math::Vector;
 use hyperbody::prelude::Polytope;
 
@@ -94,27 +94,18 @@ fn counts<const N: usize>(file: &OffFile) -> Vec<usize> {
     counts
 }
 
-/// Convex cells of the union of what the surface of a star polytope winds around, `most` at most.
+/// Convex cells of the union of what the surface of a star polytope winds around.
 ///
 /// # Errors
-/// As [`star_mass`], and if it takes more cells.
-pub(crate) fn star_cells<const N: usize>(name: &str, size: Size, path: &str, most: usize) -> Result<Vec<Polytope<N>>> {
+/// As [`star_mass`], and if it takes more than [`MAX_STAR_CELLS`].
+pub(crate) fn star_cells<const N: usize>(name: &str, size: Size, path: &str) -> Result<Vec<Polytope<N>>> {
     let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
     star_surface::<N>(name, size, path)?;
-    star::cells(&star::symbol(name).map_err(refuse)?, size, most).map_err(|error| {
-        if error.kind() == GeometryErrorKind::BadCount {
-            let message = format!("\"{name}\": {error}; `inspect` weighs it, and its hull is a \"polytope\"");
-            return SceneError::new(ErrorKind::Unsupported, path, message);
-        }
-        refuse(error)
-    })
+    star::cells(&star::symbol(name).map_err(refuse)?, size, MAX_STAR_CELLS).map_err(refuse)
 }
 
-/// Most convex cells of a star polytope as a body: every one of them is looked at whenever something touches it.
-pub(crate) const MAX_BODY_STAR_CELLS: usize = 4096;
-
-/// The same for one that is only cut: the grand 600-cell takes 50,400, and some seconds.
-pub(crate) const MAX_CUT_STAR_CELLS: usize = 1 << 16;
+/// Most convex cells of a star polytope: the grand 600-cell takes 50,400, and none more.
+pub(crate) const MAX_STAR_CELLS: usize = 1 << 16;
 
 /// Convex cells of what the surface in a file bounds; the hull for files with vertices only.
 ///

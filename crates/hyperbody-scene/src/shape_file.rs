@@ -127,8 +127,7 @@ impl ShapeFile {
         off::mesh::<N>(&text, "").map_err(|error| error.in_file(Some(&self.file)))
     }
 
-    /// The shape, in `N` dimensions, for cutting and weighing; `N` has to be [`ShapeFile::dimension`]. Star polytopes may have more
-    /// cells here than as bodies.
+    /// The shape, in `N` dimensions; `N` has to be [`ShapeFile::dimension`].
     ///
     /// # Errors
     /// If the numbers of the shape are not those of a shape.
@@ -136,7 +135,7 @@ impl ShapeFile {
     where
         Dim<N>: EvenAlgebra,
     {
-        let shape = ShapeBuilder::for_sections(beside(&self.file)).shape(&self.shape, "");
+        let shape = ShapeBuilder::new(beside(&self.file)).shape(&self.shape, "");
         shape.map_err(|error| error.in_file(Some(&self.file)))
     }
 }

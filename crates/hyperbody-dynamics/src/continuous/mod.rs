@@ -125,21 +125,22 @@ impl<const N: usize> World<N> {
     /// Pairs of a core and another piece that may have come together, by the boxes of their ways.
     fn find_met(&mut self, work: &mut Continuous<N>) {
         work.pairs.clear();
-        let mut stack = std::mem::take(&mut self.tree_stack);
+        let mut near = std::mem::take(&mut self.near);
         for sweep in &work.sweeps {
             let Some(body) = self.bodies.at(sweep.slot) else { continue };
+            near.boxes.clear();
             for &slot in &body.colliders {
                 let Some(collider) = &self.colliders[slot as usize] else { continue };
                 let Piece::Convex(convex) = &collider.piece else { continue };
                 let (start, end) = (sweep.pose_of(collider, 0.0), sweep.pose_of(collider, 1.0));
                 let way = convex.aabb(&start).union(&convex.aabb(&end)).grown(sweep.bulge(collider));
-                self.tree.for_each_overlap(&way, &mut stack, |other| {
-                    work.pairs.extend([(slot, other), (other, slot)]);
-                    true
-                });
+                near.boxes.push((slot, way));
             }
+            self.for_each_near(sweep.slot, &mut near, |slot, other| {
+                work.pairs.extend([(slot, other), (other, slot)]);
+            });
         }
-        self.tree_stack = stack;
+        self.near = near;
         work.pairs.sort_unstable();
         work.pairs.dedup();
         let mut pairs = std::mem::take(&mut work.pairs);

@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 use hyperbody_math::{Matrix, Vector};
 
 use super::envelope::{Sheet, lowest};
+use super::group::{Group, Known, SAME_POINT};
 use super::{Fraction, distance, endless, first_vertex, mirrors, surface};
 use crate::decompose::{clip, convex_cells};
 use crate::error::GeometryErrorKind::{BadCount, BadMesh, Unsupported};
@@ -30,90 +31,7 @@ const SAME_VOLUME: f64 = 1e-8;
 /// Most parts of what is seen within the chamber.
 const MAX_PARTS: usize = 1000;
 
-/// Images of a point that are closer than this are one.
-const SAME_POINT: f64 = 1e-7;
-
-/// Most images of a point under the mirrors that are written down; corners of the chamber of four dimensions have 1200 at most.
-const MAX_IMAGES: usize = 14_400;
-
 const MAX_DIMENSION: usize = 6;
-
-/// The mirrors of the symmetry group, and how many elements those that any of them make have.
-struct Group<const N: usize> {
-    mirrors: [Vector<N>; N],
-    /// By the set of mirrors, as bits.
-    orders: Vec<usize>,
-    /// Along the edges of the chamber: each is on all mirrors but the one of its number.
-    edges: [Vector<N>; N],
-}
-
-impl<const N: usize> Group<N> {
-    fn new<const M: usize>(symbol: &[Fraction]) -> Option<Self> {
-        let mirrors = Self::walls::<M>(symbol)?;
-        let inverse = Matrix::from_fn(|i, j| mirrors[i][j]).try_inverse()?;
-        let edges = std::array::from_fn(|i| inverse.column(i).normalize_or_zero());
-        let mut group = Self { mirrors, orders: vec![1], edges };
-        for set in 1_usize..1 << N {
-            // Those that leave an edge of the chamber in place are made by the other mirrors.
-            let first = set.trailing_zeros() as usize;
-            let order = group.orbit(group.edges[first], set)?.len() * group.orders[set & (set - 1)];
-            group.orders.push(order);
-        }
-        Some(group)
-    }
-
-    /// The mirrors around a chamber, their normals inward. Those of the symbol of a star stand at angles such as 2π/5, with
-    /// others between them: of the normals of all mirrors that point to one side the outermost ones are wanted.
-    fn walls<const M: usize>(symbol: &[Fraction]) -> Option<[Vector<N>; N]> {
-        let vectors = mirrors(symbol)?.iter().map(|row| Vector::from_slice(row)).collect::<Option<Vec<Vector<N>>>>()?;
-        let symbol_mirrors: [Vector<N>; N] = vectors.try_into().ok()?;
-        let plain = Self { mirrors: symbol_mirrors, orders: Vec::new(), edges: symbol_mirrors };
-        let mut normals: Vec<Vector<N>> = Vec::new();
-        for mirror in symbol_mirrors {
-            for image in plain.orbit(mirror, (1 << N) - 1)? {
-                if normals.iter().all(|known| known.distance(image) > SAME_POINT) {
-                    normals.push(image);
-                }
-            }
-        }
-        // In no mirror of any group: its coordinates have nothing to do with each other.
-        let side = Vector::from_fn(|i| 1.0 / (i as f64 + std::f64::consts::E)).normalize_or_zero();
-        normals.retain(|normal| normal.dot(side) > 0.0);
-        let frame = SliceFrame::from_normal(side, 1.0).ok()?;
-        let seen: Vec<Vector<M>> = normals.iter().map(|&n| frame.to_slice(n / n.dot(side))).collect();
-        let outermost = Polytope::from_points(&seen).ok()?;
-        let walls: Vec<Vector<N>> =
-            outermost.vertices().iter().map(|&v| frame.to_space(v).normalize_or_zero()).collect();
-        walls.try_into().ok()
-    }
-
-    fn order(&self) -> usize {
-        self.orders[(1 << N) - 1]
-    }
-
-    fn reflect(&self, mirror: usize, point: Vector<N>) -> Vector<N> {
-        point - self.mirrors[mirror] * (2.0 * self.mirrors[mirror].dot(point))
-    }
-
-    /// All images of a point under a set of mirrors; `None` if they are too many.
-    fn orbit(&self, point: Vector<N>, set: usize) -> Option<Vec<Vector<N>>> {
-        let mut points = vec![point];
-        let mut next = 0;
-        while next < points.len() {
-            for mirror in (0..N).filter(|mirror| set >> mirror & 1 == 1) {
-                let image = self.reflect(mirror, points[next]);
-                if points.iter().all(|known| known.distance(image) > SAME_POINT) {
-                    points.push(image);
-                }
-            }
-            next += 1;
-            if points.len() > MAX_IMAGES {
-                return None;
-            }
-        }
-        Some(points)
-    }
-}
 
 /// A convex cell within the chamber, and what it makes with its images.
 #[derive(Clone)]
@@ -227,11 +145,12 @@ fn corners<const N: usize, const M: usize>(symbol: &[Fraction], most: usize) -> 
 /// All images of a polytope, as their vertices.
 fn images<const N: usize>(polytope: &Polytope<N>, group: &Group<N>) -> Vec<Vec<Vector<N>>> {
     let mut all = vec![(polytope.vertex_mean(), polytope.vertices().to_vec())];
+    let mut known = Known::new(all[0].0);
     let mut next = 0;
     while next < all.len() {
         for mirror in 0..N {
             let middle = group.reflect(mirror, all[next].0);
-            if all.iter().all(|(known, _)| known.distance(middle) > SAME_POINT) {
+            if known.is_new(middle) {
                 let vertices = all[next].1.iter().map(|&v| group.reflect(mirror, v)).collect();
                 all.push((middle, vertices));
             }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path};
+use std::rc::Rc;
 use std::sync::Arc;
 
 use hyperbody::geometry;
@@ -28,11 +29,11 @@ pub(crate) const MAX_SHAPE_FILE_BYTES: u64 = 16 << 20;
 /// Makes the shapes of one scene.
 pub(crate) struct ShapeBuilder<'a, const N: usize> {
     beside: Beside<'a>,
-    /// Most convex cells of one star polytope.
-    most_star_cells: usize,
     /// Regular polytopes and files that were made already, by what the scene says of them: hundreds of equal dice share
     /// one polytope.
     made: BTreeMap<String, Arc<Polytope<N>>>,
+    /// The convex cells of meshes and star polytopes, likewise: taking them apart is done once.
+    made_of_cells: BTreeMap<String, Cells<N>>,
 }
 
 impl<'a, const N: usize> ShapeBuilder<'a, N>
@@ -41,12 +42,7 @@ where
 {
     /// A builder that takes files from there.
     pub(crate) fn new(beside: Beside<'a>) -> Self {
-        Self { beside, most_star_cells: off::MAX_BODY_STAR_CELLS, made: BTreeMap::new() }
-    }
-
-    /// The same for shapes that are cut and not simulated.
-    pub(crate) fn for_sections(beside: Beside<'a>) -> Self {
-        Self { most_star_cells: off::MAX_CUT_STAR_CELLS, ..Self::new(beside) }
+        Self { beside, made: BTreeMap::new(), made_of_cells: BTreeMap::new() }
     }
 
     /// The shape that stands at `path` in the scene.
@@ -89,10 +85,13 @@ where
             }
             ShapeSpec::Mesh { file } => {
                 let place = format!("{path}.file");
-                compound_of(off::cells(&read_beside(self.beside, file, &place)?, &place)?).map_err(refuse(&place))
+                let beside = self.beside;
+                let cells = || off::cells(&read_beside(beside, file, &place)?, &place);
+                compound_of(&self.cells(format!("mesh {file}"), cells)?).map_err(refuse(&place))
             }
             ShapeSpec::Star { name, size } => {
-                compound_of(off::star_cells(name, *size, &path, self.most_star_cells)?).map_err(refuse(&path))
+                let cells = || off::star_cells(name, *size, &path);
+                compound_of(&self.cells(format!("star {name} {size:?}"), cells)?).map_err(refuse(&path))
             }
             ShapeSpec::Pyramid { base, height } => {
                 product::check_base_axes::<N>(&base.axes, &format!("{path}.base.axes"))?;
@@ -146,11 +145,24 @@ where
         self.made.insert(key, Arc::clone(&polytope));
         Ok(polytope)
     }
+
+    /// The cells that go by this key, made if there are none yet.
+    fn cells(&mut self, key: String, make: impl FnOnce() -> Result<Vec<Polytope<N>>>) -> Result<Cells<N>> {
+        if let Some(made) = self.made_of_cells.get(&key) {
+            return Ok(Rc::clone(made));
+        }
+        let made: Cells<N> = make()?.into_iter().map(Arc::new).collect();
+        self.made_of_cells.insert(key, Rc::clone(&made));
+        Ok(made)
+    }
 }
 
-fn compound_of<const N: usize>(cells: Vec<Polytope<N>>) -> geometry::Result<Shape<N>> {
+/// Convex cells that make a body.
+type Cells<const N: usize> = Rc<[Arc<Polytope<N>>]>;
+
+fn compound_of<const N: usize>(cells: &[Arc<Polytope<N>>]) -> geometry::Result<Shape<N>> {
     let parts: geometry::Result<Vec<_>> =
-        cells.into_iter().map(|cell| Ok((Pose::IDENTITY, Shape::polytope(Arc::new(cell))?))).collect();
+        cells.iter().map(|cell| Ok((Pose::IDENTITY, Shape::polytope(Arc::clone(cell))?))).collect();
     parts.and_then(Shape::compound)
 }
 
