@@ -19,6 +19,9 @@ use crate::{GeometryError, Polytope, Result};
 /// Lengths below this, in parts of the size of the solid, are none.
 const TOLERANCE: f64 = 1e-9;
 
+/// Depth in tolerances from which nothing is doubtful.
+const CLEARLY: f64 = 1e3;
+
 /// How many pieces of surface are tried for the one whose hyperplane cuts the fewest others.
 const CANDIDATES: usize = 8;
 
@@ -39,18 +42,22 @@ pub fn convex_cells<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]]) 
     let all: Vec<Wall<N>> = pieces.iter().filter_map(|corners| Wall::new(*corners)).collect();
     let mut waiting: Vec<(Polytope<N>, Vec<usize>)> = vec![(hull, (0..all.len()).collect())];
     let mut cells = Vec::new();
-    let mut cuts = 0;
+    let (mut cuts, mut simple) = (0, true);
     while let Some((cell, near)) = waiting.pop() {
         let crossing: Vec<usize> = near.into_iter().filter(|&wall| all[wall].passes(&cell, tolerance)).collect();
         let Some(plane) = best_plane(&all, &crossing, tolerance) else {
-            if winding_number(&pieces, cell.vertex_mean())? != 0 {
+            let winding = winding_number(&pieces, cell.vertex_mean())?;
+            simple &= winding == 0 || winding == 1;
+            if winding != 0 {
                 cells.push(cell);
             }
             continue;
         };
         cuts += 1;
         if cuts > MAX_CELLS {
-            let message = format!("the solid would take more than {MAX_CELLS} convex cells: use a simpler mesh");
+            let message = format!(
+                "the solid takes more than {MAX_CELLS} cuts to come apart into convex cells: use a simpler mesh"
+            );
             return Err(GeometryError::new(BadCount, message));
         }
         let halves = [clip(&cell, &plane, tolerance), clip(&cell, &plane.flipped(), tolerance)];
@@ -64,6 +71,11 @@ pub fn convex_cells<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]]) 
             BadMesh,
             "the surface crosses itself in a way that leaves no clear inside".to_string(),
         ));
+    }
+    if simple && content < whole.mass * (1.0 - 1e-6) {
+        let message =
+            "parts of the solid are too thin to be told from its surface: use a simpler mesh, or a thicker one";
+        return Err(GeometryError::new(BadMesh, message.to_string()));
     }
     Ok(cells)
 }
@@ -98,6 +110,18 @@ impl<const N: usize> Wall<N> {
             |normal: Vector<N>, offset: f64| self.corners.iter().all(|c| normal.dot(*c) - offset > -tolerance);
         if !divides(&self.plane, cell, tolerance) || cell.facets().iter().any(|f| outside(f.normal, f.offset)) {
             return false;
+        }
+        let beyond = |side: &Hyperplane<N>| cell.vertices().iter().all(|&v| side.distance(v) > -tolerance);
+        if self.sides.iter().any(beyond) {
+            return false;
+        }
+        // Most walls that pass have their middle well within the cell, which spares making hulls.
+        let middle = self.corners.iter().fold(Vector::ZERO, |sum, &c| sum + c) / N as f64;
+        let depth = |planes: &mut dyn Iterator<Item = f64>| planes.fold(f64::INFINITY, f64::min);
+        let within = depth(&mut cell.facets().iter().map(|f| f.offset - f.normal.dot(middle)));
+        let wide = depth(&mut self.sides.iter().map(|side| -side.distance(middle)));
+        if within.min(wide) > CLEARLY * tolerance {
+            return true;
         }
         let mut rest = cell.clone();
         for side in &self.sides {

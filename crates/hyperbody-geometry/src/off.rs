@@ -15,10 +15,10 @@ mod read;
 
 use std::fmt;
 
-use hyperbody_math::Vector;
+use hyperbody_math::{Matrix, Vector};
 
 use crate::error::GeometryErrorKind::{BadCount, Flat};
-use crate::tolerances::HULL_TOLERANCE;
+use crate::tolerances::{HULL_TOLERANCE, JOINING_TOLERANCES};
 use crate::{FaceLattice, GeometryError, Polytope, Result, hull};
 
 pub use read::parse;
@@ -86,7 +86,7 @@ impl OffFile {
         if settled || listed == 0 {
             return fine;
         }
-        for tolerance in [1e-8, 1e-7, 1e-6, 1e-5, 1e-4] {
+        for tolerance in JOINING_TOLERANCES {
             debug_assert!(tolerance > HULL_TOLERANCE);
             match hull::convex_hull_within(&vertices, tolerance) {
                 Ok((coarse, _)) if coarse.facets().len() == listed => return Ok(coarse),
@@ -119,12 +119,16 @@ impl OffFile {
     pub fn from_polytope<const N: usize>(polytope: &Polytope<N>) -> Self {
         let lattice = polytope.face_lattice();
         let mut elements: Vec<Vec<Vec<u32>>> = Vec::new();
-        if N == 2 {
+        let mut faces: Vec<Vec<u32>> = if N == 2 {
             let edges: Vec<u32> = (0..lattice.faces(1).len() as u32).collect();
-            elements.push(vec![around(&lattice, &edges)]);
+            vec![around(&lattice, &edges)]
         } else {
-            elements.push(lattice.faces(2).iter().map(|face| around(&lattice, &face.boundary)).collect());
+            lattice.faces(2).iter().map(|face| around(&lattice, &face.boundary)).collect()
+        };
+        if N <= 3 {
+            faces.iter_mut().for_each(|face| turn_outward(face, polytope));
         }
+        elements.push(faces);
         for rank in 3..N {
             elements.push(lattice.faces(rank).iter().map(|face| face.boundary.clone()).collect());
         }
@@ -145,6 +149,16 @@ impl OffFile {
         edges.sort_unstable();
         edges.dedup();
         edges.len()
+    }
+}
+
+/// Has the vertices of a face go around counterclockwise, in 3D as seen from outside: programs take that for its orientation. From
+/// four dimensions on 2-faces have none.
+fn turn_outward<const N: usize>(face: &mut [u32], polytope: &Polytope<N>) {
+    let middle = polytope.vertex_mean();
+    let corners: [Vector<N>; N] = std::array::from_fn(|k| polytope.vertices()[face[k] as usize] - middle);
+    if Matrix::from_columns(corners).determinant() < 0.0 {
+        face[1..].reverse();
     }
 }
 

@@ -4,7 +4,7 @@ use hyperbody_math::{Matrix, Vector};
 
 use crate::error::GeometryErrorKind::BadNumber;
 use crate::round_parts::{RoundPart, TurnedToward};
-use crate::tolerances::MIN_CLIMBING_VERTICES;
+use crate::tolerances::{JOINING_TOLERANCES, MIN_CLIMBING_VERTICES};
 use crate::{FaceLattice, GeometryError, Result, hull, incidence};
 
 /// A convex polytope with non-empty interior. Vertices, facets and neighbours are in a fixed order that depends on the
@@ -58,6 +58,13 @@ impl<const N: usize> Polytope<N> {
     /// ```
     pub fn from_points(points: &[Vector<N>]) -> Result<Self> {
         hull::convex_hull(points).map(|(polytope, _)| polytope)
+    }
+
+    /// The polytope with coarser and coarser tolerance for what is one facet, to 1e-3 of its size: facets that noise in the last
+    /// digits has split are joined.
+    pub(crate) fn with_joined_facets(&self) -> impl Iterator<Item = Self> {
+        let joined = |tolerance| hull::convex_hull_within(&self.vertices, tolerance).ok().map(|(joined, _)| joined);
+        JOINING_TOLERANCES.into_iter().chain([1e-3]).filter_map(joined)
     }
 
     /// Takes vertices and facets that are known to fit together.

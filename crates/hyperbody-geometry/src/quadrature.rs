@@ -36,8 +36,11 @@ const GAUSS_WEIGHTS: [f64; 4] =
 /// better rule, which counts, is smaller by the factor that 15 points gain over 7, several orders of magnitude for an
 /// analytic function.
 pub(crate) fn integrate(tolerance: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
-    in_halves(tolerance, usize::MAX, &mut f)
+    in_halves(tolerance, MAX_SMOOTH_INTERVALS, &mut f)
 }
+
+/// Intervals looked at by [`integrate`] at most: an analytic function takes a few dozen, and what takes more is noise.
+const MAX_SMOOTH_INTERVALS: usize = 512;
 
 /// Intervals looked at by [`integrate_between`] at most: an integrand that is noisier than the tolerance ends there.
 const MAX_INTERVALS: usize = 4096;

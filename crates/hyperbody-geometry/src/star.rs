@@ -86,7 +86,7 @@ pub fn symbol(name: &str) -> Result<Vec<Fraction>> {
 }
 
 fn in_lowest_terms(p: u32, d: u32) -> bool {
-    (2..=d).all(|divisor| p % divisor != 0 || d % divisor != 0)
+    (2..=d).all(|divisor| !p.is_multiple_of(divisor) || !d.is_multiple_of(divisor))
 }
 
 /// The surface of the regular polytope with this symbol, in one dimension more than the symbol has entries: vertices, polygons

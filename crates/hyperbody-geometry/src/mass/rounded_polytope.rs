@@ -20,7 +20,7 @@ use hyperbody_math::{Matrix, Vector, scalar};
 use super::MassProperties;
 use super::boundary::{Moments, of_polytope, symmetric};
 use super::orthant::ConeShares;
-use crate::error::GeometryErrorKind::BadCount;
+use crate::error::GeometryErrorKind::{BadCount, Flat};
 use crate::tolerances::MAX_CONE_WORK;
 use crate::volume::{factorial, unit_sphere};
 use crate::{FaceLattice, GeometryError, Polytope, Result};
@@ -46,11 +46,34 @@ pub(crate) struct Normals<'a, const N: usize> {
     facets: Vec<Vec<Vec<u32>>>,
 }
 
+/// What the normal cones of all vertices may miss of all directions, in parts of them: more is noise.
+const MAX_MISSED: f64 = 1e-8;
+
 /// The properties of the rounded polytope at unit density.
 ///
+/// Normal cones of vertices whose facets differ in direction by what noise makes of one are too narrow to be measured. That shows,
+/// for the cones of all vertices together are all directions; then facets that noise has split are joined.
+///
 /// # Errors
-/// `BadCount` if its normal cones fall into more simplicial ones than [`MAX_CONE_WORK`] allows.
+/// `BadCount` if its normal cones fall into more simplicial ones than [`MAX_CONE_WORK`] allows; `Flat` if they cannot be measured.
 pub(super) fn properties<const N: usize>(polytope: &Polytope<N>, radius: f64) -> Result<MassProperties<N>> {
+    if let Some(properties) = measured(polytope, radius)? {
+        return Ok(properties);
+    }
+    for joined in polytope.with_joined_facets() {
+        if let Some(properties) = measured(&joined, radius)? {
+            return Ok(properties);
+        }
+    }
+    Err(GeometryError::new(
+        Flat,
+        "facets of a rounded polytope are so nearly parallel, or the whole is so thin, that the directions of its corners cannot be \
+         measured: give its vertices with more digits, leave out those that hardly stand out, or use the polytope without rounding",
+    ))
+}
+
+/// The same; `None` if the normal cones do not make up all directions.
+fn measured<const N: usize>(polytope: &Polytope<N>, radius: f64) -> Result<Option<MassProperties<N>>> {
     let lattice = polytope.face_lattice();
     let normals = Normals::new(polytope, &lattice);
     let work = normals.work();
@@ -83,7 +106,11 @@ pub(super) fn properties<const N: usize>(polytope: &Polytope<N>, radius: f64) ->
         }
         above = cones;
     }
-    Ok(total.properties(reference))
+    let angle = above.iter().map(|cone| cone.angle).sum::<f64>() / unit_sphere(N);
+    let first = above.iter().fold(Vector::ZERO, |sum, cone| sum + cone.first);
+    let positive = above.iter().all(|cone| cone.angle >= -MAX_MISSED);
+    let whole = (angle - 1.0).abs() < MAX_MISSED && first.max_abs() < MAX_MISSED && positive;
+    Ok(whole.then(|| total.properties(reference)))
 }
 
 /// Adds the points nearest to a face, whose normal cone has dimension m.

@@ -3,6 +3,7 @@
 use crate::common::Random;
 use hyperbody_geometry::regular::{Size, names, polytope};
 use hyperbody_geometry::{GeometryError, GeometryErrorKind, MassProperties, OffFile, off};
+use hyperbody_math::Matrix;
 
 const TETRAHEDRON: &str = "OFF\n4 4 6\n1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n";
 
@@ -190,5 +191,24 @@ fn broken_files_never_panic() {
             changes.len()
         );
         assert!(of_changes > 0 && of_changes < changes.len(), "both ends are to be seen");
+    }
+}
+
+/// Programs take the order of the vertices for the orientation of a face: outward, counterclockwise.
+#[test]
+fn written_faces_look_outward() {
+    for name in names(3) {
+        let solid = polytope::<3>(name, Size::Circumradius(1.0)).unwrap();
+        let file = OffFile::from_polytope(&solid);
+        let points = file.vertices::<3>().unwrap();
+        let mut volume = 0.0;
+        for face in file.elements(2) {
+            for pair in face[1..].windows(2) {
+                let [a, b, c] = [face[0], pair[0], pair[1]].map(|v| points[v as usize]);
+                volume += Matrix::from_columns([a, b, c]).determinant() / 6.0;
+            }
+        }
+        let expected = MassProperties::of_polytope(&solid).mass;
+        assert!((volume / expected - 1.0).abs() < 1e-12, "{name}: {volume} for {expected}");
     }
 }
