@@ -48,6 +48,8 @@ impl<const N: usize> World<N> {
             body.angular_velocity.planes().for_each(|c| hasher.number(c));
             body.angular_momentum.planes().for_each(|c| hasher.number(c));
             hasher.number(body.slow_time);
+            hasher.vector(body.strayed.0);
+            body.strayed.1.planes().for_each(|c| hasher.number(c));
             hasher.word(u64::from(body.asleep_in.is_some()) | u64::from(body.quarantined) << 1);
         }
         for pair in self.pairs.iter() {

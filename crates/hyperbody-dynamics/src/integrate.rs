@@ -22,7 +22,6 @@ impl<const N: usize> World<N> {
         for (row, solved) in self.solver.bodies.iter().enumerate() {
             let Some(body) = self.bodies.at_mut(solved.slot) else { continue };
             let before = (body.centre, body.rotation);
-            let moved = (body.velocity, body.angular_velocity);
             let at = row * Sizes::<N>::STATE;
             let (change, displacement) = self.solver.state[at..at + Sizes::<N>::STATE].split_at(Sizes::<N>::VELOCITY);
             span.translate(body, solved, &change[..N], &displacement[..N]);
@@ -38,8 +37,7 @@ impl<const N: usize> World<N> {
             }
             let spin = body.angular_velocity.norm();
             finish(body, &self.tuning);
-            body.slow_time =
-                if rests(body, moved, self.gravity, &self.tuning, self.dt) { body.slow_time + self.dt } else { 0.0 };
+            rest(body, before, self.gravity, &self.tuning, self.dt);
             let turned = spin.max(body.angular_velocity.norm()) * body.radius * self.dt;
             let went = body.centre.distance(before.0) + turned;
             if went > self.tuning.speculative_distance.max(body.core_radius) {
@@ -52,6 +50,9 @@ impl<const N: usize> World<N> {
                     self.quarantined.push(handle);
                 }
             }
+        }
+        for &slot in self.solver.creeping() {
+            self.bodies.at_mut(slot).into_iter().for_each(|body| body.slow_time = 0.0);
         }
         // Their impulses are no numbers either.
         for body in sound..self.quarantined.len() {
@@ -123,28 +124,38 @@ fn finish<const N: usize>(body: &mut Body<N>, tuning: &Tuning) {
     limit_speed(body, tuning);
 }
 
-/// The part of what pulls a jointed body that may go into its motion while it counts as resting: a pendulum rests at a tenth of a degree.
-const RESTING_SHARE: f64 = 0.002;
+/// How far a body may get while it counts as resting, in parts of the way of [`Tuning::sleep_speed`] in [`Tuning::sleep_time`]: what trembles in its
+/// place rests, what goes on does not, however slowly. What joints leave a way to go is at rest less often than it is slow: a
+/// pendulum where it turns back, a balance that sets out.
+const LOOSE: f64 = 0.08;
+const JOINTED: f64 = 0.02;
 
-/// The same where nothing pulls, m/s².
-const RESTING_ACCELERATION: f64 = 0.01;
+/// The same in parts of the way that what pulls it would take it in that time.
+const OF_PULL: f64 = 0.25;
 
-/// Whether a body is slow and, if joints leave it a way to go, is not on that way: what swings is slow where it turns back.
-fn rests<const N: usize>(
-    body: &Body<N>,
-    (velocity, spin): (Vector<N>, Bivector<N>),
+/// Counts how long a body has been slow and in one place; `before` is where it was before this step.
+fn rest<const N: usize>(
+    body: &mut Body<N>,
+    (centre, rotation): (Vector<N>, Rotation<N>),
     gravity: Vector<N>,
     tuning: &Tuning,
     dt: f64,
-) -> bool {
-    let fastest = |velocity: Vector<N>, spin: Bivector<N>| velocity.norm() + spin.norm() * body.radius;
-    if fastest(body.velocity, body.angular_velocity) >= tuning.sleep_speed {
-        return false;
+) {
+    if body.slow_time == 0.0 {
+        body.strayed = (Vector::ZERO, Bivector::ZERO);
     }
-    if body.joints.is_empty() {
-        return true;
+    let fastest = body.velocity.norm() + body.angular_velocity.norm() * body.radius;
+    if fastest >= tuning.sleep_speed {
+        body.slow_time = 0.0;
+        return;
     }
+    let turn = *body.rotation.matrix() * rotation.matrix().transpose();
+    body.strayed.0 += body.centre - centre;
+    body.strayed.1 += Bivector::from_antisymmetric_part(&turn.transpose());
+    let way = tuning.sleep_speed * tuning.sleep_time * if body.joints.is_empty() { LOOSE } else { JOINTED };
     let pull = (gravity * body.gravity_scale + body.steady_force * body.inverse_mass).norm();
-    let allowed = if pull > 0.0 { RESTING_SHARE * pull } else { RESTING_ACCELERATION };
-    fastest(body.velocity - velocity, body.angular_velocity - spin) < allowed * dt
+    let by_pull = 0.5 * pull * tuning.sleep_time * tuning.sleep_time;
+    let allowed = if pull > 0.0 { way.min(OF_PULL * by_pull) } else { way };
+    let strayed = body.strayed.0.norm() + body.strayed.1.norm() * body.radius;
+    body.slow_time = if strayed < allowed { body.slow_time + dt } else { 0.0 };
 }

@@ -172,8 +172,8 @@ impl<const N: usize> World<N> {
 }
 
 impl<const N: usize> World<N> {
-    /// What touches a kinematic body in motion, or is tied to it, or is driven by a motor or a spring, goes on, however slowly, and may
-    /// not fall asleep; nor may what gravity or a steady force pulls and nothing immovable holds, however slowly it still moves.
+    /// What touches a kinematic body in motion, or is tied to it, is carried along, however slowly, and may not fall asleep;
+    /// nor may what gravity or a steady force pulls and nothing immovable holds, however slowly it still moves.
     fn keep_moved_awake(&mut self) {
         let mut held = std::mem::take(&mut self.islands.held);
         held.clear();
@@ -181,14 +181,6 @@ impl<const N: usize> World<N> {
         let presses = |contact: &Contact<N>| contact.step_impulses.iter().any(|&impulse| impulse > 0.0);
         let pressed = self.pairs.iter().filter(|pair| pair.contact.as_deref().is_some_and(presses));
         let contacts = pressed.map(|pair| (pair.body_a, pair.body_b, true, true));
-        for joint in self.joints.values().filter(|joint| joint.creeps) {
-            for body in [joint.body_a, joint.body_b] {
-                if self.bodies.at(body).is_some_and(Body::is_moving) {
-                    let root = self.islands.find(body) as usize;
-                    self.islands.least_slow_time[root] = 0.0;
-                }
-            }
-        }
         // A slack rope holds nothing.
         let bears = |joint: &Joint<N>| joint.step_impulse != Vector::ZERO || joint.step_twist != Bivector::ZERO;
         let joints = self.joints.values().map(|joint| (joint.body_a, joint.body_b, false, bears(joint)));

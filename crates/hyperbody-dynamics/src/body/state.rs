@@ -140,6 +140,8 @@ pub(crate) struct Body<const N: usize> {
     pub(crate) can_sleep: bool,
     /// How long it has been slow, s.
     pub(crate) slow_time: f64,
+    /// How far it has gone (m) and turned (rad) while it was slow.
+    pub(crate) strayed: (Vector<N>, Bivector<N>),
     /// The sleeping island that it belongs to.
     pub(crate) asleep_in: Option<u32>,
     /// Its state turned non-finite; it stays where it last was, out of the simulation.
@@ -217,6 +219,7 @@ impl<const N: usize> Body<N> {
             refilter: false,
             can_sleep: def.can_sleep,
             slow_time: 0.0,
+            strayed: (Vector::ZERO, Bivector::ZERO),
             asleep_in: None,
             quarantined: false,
             solver_index: 0,

@@ -2,6 +2,7 @@
 
 use hyperbody_math::{Bivector, Pose, Vector};
 
+use super::def::check_frame;
 use super::{Joint, JointDef, WORLD};
 use crate::body::Body;
 use crate::world::{is_pair_of, stale};
@@ -160,12 +161,7 @@ impl<const N: usize> World<N> {
         let base = self.joints.get(handle).ok_or_else(|| stale("joint"))?.body_a;
         let centre_a = self.bodies.at(base).map_or(Vector::ZERO, |body| body.centre_in_body);
         let joint = self.joints.get_mut(handle).ok_or_else(|| stale("joint"))?;
-        if !(frame.translation.is_finite() && frame.rotation.matrix().is_finite()) {
-            return Err(WorldError::bad_number(format!(
-                "the target is {:?}; it must be finite, and so must its axes",
-                frame.translation.0
-            )));
-        }
+        check_frame("the target", &frame)?;
         if joint.def.frame_a == frame {
             return Ok(());
         }

@@ -6,6 +6,7 @@ use hyperbody_math::{Pose, Vector, planes};
 
 use super::freedom::check_spring;
 use super::{Coupling, Freedom, Motor, Spring};
+use crate::vetting::{POSITION_LIMIT, in_bounds};
 use crate::{BodyHandle, WorldError, WorldErrorKind};
 
 /// Everything needed to make a joint. Start from one of the named joints, or from [`JointDef::free`] and lock what must not
@@ -335,12 +336,7 @@ impl<const N: usize> JointDef<N> {
 
     pub(crate) fn validate(&self) -> Result<(), WorldError> {
         for (name, frame) in [("frame_a", &self.frame_a), ("frame_b", &self.frame_b)] {
-            if !(frame.translation.is_finite() && frame.rotation.matrix().is_finite()) {
-                return Err(WorldError::bad_number(format!(
-                    "the anchor of {name} is {:?}; it must be finite, and so must the axes",
-                    frame.translation.0
-                )));
-            }
+            check_frame(&format!("the anchor of {name}"), frame)?;
         }
         if self.planes.len() != planes::count(N) {
             return Err(WorldError::bad_number(format!(
@@ -451,6 +447,17 @@ impl<const N: usize> JointDef<N> {
         self.frame_b = world_from_b.inverse() * *world_from_joint;
         self
     }
+}
+
+/// That a frame is one, and near enough to do something.
+pub(crate) fn check_frame<const N: usize>(what: &str, frame: &Pose<N>) -> Result<(), WorldError> {
+    if in_bounds(frame.translation) && frame.rotation.matrix().is_finite() {
+        return Ok(());
+    }
+    Err(WorldError::bad_number(format!(
+        "{what} is {:?}; its coordinates must lie within ±{POSITION_LIMIT:e} m, and its axes must be finite",
+        frame.translation.0
+    )))
 }
 
 /// Frequency of a hand's spring: follows within a tenth of a second.

@@ -19,7 +19,8 @@ pub struct Spring {
     pub target: f64,
     /// Frequency without damping, Hz, 1e-6 to 1e6; capped at a quarter of the substep rate.
     pub hz: f64,
-    /// 0 swings on (slowly losing a little to the integration), 1 comes to rest without overshoot; up to 1e6.
+    /// 0 swings on, 1 comes to rest without overshoot; up to 1e6. The integration, which is stable at every frequency, damps by a ratio of about
+    /// π·hz·(length of a substep) more: 0.013 at 1 Hz and the default step.
     pub damping_ratio: f64,
     /// Most that it can pull, N, or turn, N·m; may be infinite.
     pub max_force: f64,
@@ -80,7 +81,8 @@ impl Freedom {
                 && high <= turn
                 && high - low <= turn)
         {
-            let range = if turn.is_finite() { ", within a turn of 0 (±2π) and at most a turn apart" } else { "" };
+            let range =
+                if turn.is_finite() { ", in radians within a turn of 0 (±2π) and at most a turn apart" } else { "" };
             return Err(WorldError::bad_number(format!(
                 "the limits of {what} are {low} and {high}; they must be finite, the lower one first{range} (lock what must not move)"
             )));

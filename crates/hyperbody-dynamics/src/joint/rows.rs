@@ -42,6 +42,13 @@ pub(crate) enum Role {
     Elastic(Spring, Bound),
 }
 
+impl Role {
+    /// Whether it drives its coordinate, and may drive it against limits.
+    pub(crate) fn drives(&self) -> bool {
+        matches!(self, Self::Driven(_) | Self::Sprung(_))
+    }
+}
+
 /// Which end of what is allowed a bound is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Bound {
@@ -83,8 +90,6 @@ pub(crate) struct Joint<const N: usize> {
     /// Impulse on `b` over the last step, world axes, N·s, and its turning part about the anchor, N·m·s.
     pub(crate) step_impulse: Vector<N>,
     pub(crate) step_twist: Bivector<N>,
-    /// Whether a motor or a spring of it was moving something at the end of the step, however slowly.
-    pub(crate) creeps: bool,
 }
 
 impl<const N: usize> Joint<N> {
@@ -109,7 +114,6 @@ impl<const N: usize> Joint<N> {
             groups,
             step_impulse: Vector::ZERO,
             step_twist: Bivector::ZERO,
-            creeps: false,
             def,
         }
     }

@@ -86,6 +86,7 @@ stored!(Body<N> {
     refilter,
     can_sleep,
     slow_time,
+    strayed,
     asleep_in,
     quarantined,
     solver_index: unset,

@@ -345,6 +345,11 @@ impl<const N: usize> Solver<N> {
         }
     }
 
+    /// Slots of bodies that joints were moving at the end of the step, however slowly.
+    pub(crate) fn creeping(&self) -> &[u32] {
+        self.joints.creeping()
+    }
+
     /// Impulses to start the next step from; and from the spins what contacts added to the angular momentum.
     fn store_impulses(&mut self, input: &mut SolverInput<'_, N>) {
         for block in &self.contacts.blocks {

@@ -31,6 +31,11 @@ impl Softness {
         Self { bias_rate: omega / a1, mass_scale: a2 * a3, impulse_scale: a3 }
     }
 
+    /// How long the spring takes to act and to be damped, s: 1/ω + 2ζ/ω, within a substep.
+    pub(crate) fn settling_time(&self, h: f64) -> f64 {
+        (h * self.compliance() / self.bias_rate).sqrt() + 1.0 / self.bias_rate
+    }
+
     /// What the row gives way, in parts of its response: 1/a2.
     pub(crate) fn compliance(&self) -> f64 {
         self.impulse_scale / self.mass_scale

@@ -3,7 +3,7 @@
 
 use super::place::{Moment, Place};
 use super::{JointRows, Joints, Moving, Row};
-use crate::joint::Coordinate;
+use crate::joint::{Coordinate, Role};
 
 /// How often a cluster may look ahead, and how far it may miss the place that it foresaw, m or rad, without looking again.
 pub(super) const LOOKS: usize = 4;
@@ -60,7 +60,8 @@ impl<const N: usize> JointRows<N> {
         let turned_off_sq: f64 = rows.iter().filter(|row| row.turns()).map(|row| row.value * row.value).sum();
         let astray = turned_off_sq > ASTRAY * ASTRAY || ahead.turned_off() > 2.0 * ASTRAY;
         for row in rows {
-            if astray && row.depends_on_turns() {
+            // Where springs let the joint tilt as it likes, what a limit will do is anyone's guess.
+            if (astray && row.depends_on_turns()) || (self.is_soft && row.is_limit()) {
                 row.curve = 0.0;
                 continue;
             }
@@ -71,6 +72,10 @@ impl<const N: usize> JointRows<N> {
 }
 
 impl<const N: usize> Row<N> {
+    fn is_limit(&self) -> bool {
+        matches!(self.spec.role, Role::AtLeast(_) | Role::AtMost(_))
+    }
+
     /// Whether its coordinate is defined as long as locked planes are not far off alone.
     fn depends_on_turns(&self) -> bool {
         matches!(self.spec.coordinate, Coordinate::Turn(..) | Coordinate::Angle(..) | Coordinate::Coupled)

@@ -12,7 +12,7 @@ pub(super) const PUSH_BACK: f64 = 4.0;
 /// their strength and not at infinity.
 const MOTOR_COMPLIANCE: f64 = 1e-4;
 
-/// The same of limits of what a motor drives: less than motors, so that none drives through its own limit, however strong.
+/// The same of limits of what a motor or a spring drives: less than motors, so that none drives through its own limit, however strong.
 const LIMIT_COMPLIANCE: f64 = 1e-5;
 
 impl<const N: usize> Row<N> {
@@ -80,7 +80,7 @@ impl<const N: usize> Row<N> {
     }
 
     /// What the row gives way beside its response: a share of `response`, which of springs is that of the joint with its held rows holding.
-    /// `driven` tells whether a motor drives the same coordinate.
+    /// `driven` tells whether a motor or a spring drives the same coordinate.
     pub(super) fn compliance(&self, response: f64, joint: &JointRows<N>, driven: bool, h: f64) -> f64 {
         match self.spec.role {
             Role::Held(_) => joint.soft.compliance() * response,

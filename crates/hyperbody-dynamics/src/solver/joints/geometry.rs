@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use hyperbody_math::{Bivector, Matrix, Rotation, Vector};
 
 use super::place::{Place, Spot};
-use super::{JointRows, Row};
+use super::{JointRows, Moving, Row};
 use crate::joint::{Coordinate, Coupling};
 use crate::solver::bodies::{MAX_PLANES, SolverBody};
 
@@ -23,9 +23,30 @@ pub(super) struct Geometry<const N: usize> {
     error: Bivector<N>,
     /// What is coupled, and what that holds.
     coupling: Option<(Coupling, f64)>,
+    /// Group of each axis: planes within one are free.
+    groups: [u8; N],
+    /// How the second frame is about to turn against the first, in the first, rad.
+    heading: Bivector<N>,
 }
 
 impl<const N: usize> JointRows<N> {
+    /// The joint with its bodies at two places, from which they are about to turn.
+    pub(super) fn geometry_now(
+        &self,
+        (a, b): (&Place<N>, &Place<N>),
+        rows: &[Row<N>],
+        moving: &Moving<'_, N>,
+        h: f64,
+    ) -> Geometry<N> {
+        let mut geometry = self.geometry(&a.now, &b.now, rows);
+        if rows.iter().any(|row| matches!(row.spec.coordinate, Coordinate::Swing(_))) {
+            let turn = (b.spin_now(moving) - a.spin_now(moving)) * h;
+            let in_frame = geometry.axes.transpose() * turn.to_matrix() * geometry.axes;
+            geometry.heading = Bivector::from_antisymmetric_part(&in_frame);
+        }
+        geometry
+    }
+
     /// The joint with its bodies at two spots.
     pub(super) fn geometry(&self, a: &Spot<N>, b: &Spot<N>, rows: &[Row<N>]) -> Geometry<N> {
         let (offset_a, offset_b) = (a.turn * self.offset_a, b.turn * self.offset_b);
@@ -37,6 +58,8 @@ impl<const N: usize> JointRows<N> {
             relative: Matrix::IDENTITY,
             error: Bivector::ZERO,
             coupling: self.coupling,
+            groups: self.groups,
+            heading: Bivector::ZERO,
         };
         let coordinate = |row: &Row<N>| row.spec.coordinate;
         let framed = |row: &Row<N>| !matches!(coordinate(row), Coordinate::Point(_) | Coordinate::Length);
@@ -113,9 +136,9 @@ impl<const N: usize> Geometry<N> {
                 hyperbody_math::scalar::atan2(q[j][i] - q[i][j], q[i][i] + q[j][j])
             }
             Coordinate::Swing(axis) => {
-                let (axis, swung) = (usize::from(axis), self.relative.column(usize::from(axis)));
-                let aside_sq = (0..N).filter(|&i| i != axis).map(|i| swung[i] * swung[i]).sum::<f64>();
-                hyperbody_math::scalar::atan2(aside_sq.sqrt(), swung[axis])
+                let axis = usize::from(axis);
+                let swung = self.relative.column(axis);
+                hyperbody_math::scalar::atan2(self.aside(axis).dot(swung), swung[axis])
             }
             Coordinate::Length => self.gap.norm(),
             Coordinate::Coupled => self.coupling.map_or(0.0, |(coupling, phase)| self.off_mesh(&coupling, phase)),
@@ -147,14 +170,22 @@ impl<const N: usize> Geometry<N> {
             }
             Coordinate::Swing(k) => {
                 let k = usize::from(k);
-                let swung = self.relative.column(k);
-                let aside = Vector::from_fn(|i| if i == k { 0.0 } else { swung[i] });
-                // Where it points straight ahead or back, any plane does.
-                let aside = aside.try_normalize().unwrap_or(Vector::unit((k + 1) % N));
-                Bivector::wedge(axis(k), self.axes * aside)
+                Bivector::wedge(axis(k), self.axes * self.aside(k))
             }
             _ => Bivector::ZERO,
         }
+    }
+
+    /// In which direction across an axis of the first frame the same of the second one swings, unit, in the first: where it points, or
+    /// where it is about to point if it comes past the middle.
+    fn aside(&self, k: usize) -> Vector<N> {
+        let swung = self.relative.column(k);
+        let across = |v: Vector<N>| Vector::from_fn(|i| if i == k { 0.0 } else { v[i] });
+        let (now, way) = (across(swung), across(self.heading.act_on(swung)));
+        let aside = if now.norm_sq() < way.norm_sq() { now + way } else { now };
+        // Straight ahead or back it may go in any plane that is free.
+        let free = || (0..N).find(|&i| i != k && self.groups[i] == self.groups[k]).unwrap_or((k + 1) % N);
+        aside.try_normalize().unwrap_or_else(|| Vector::unit(free()))
     }
 
     /// Where the impulse between two anchors acts, as offsets from both centres. Between two moving bodies it is one point,
@@ -177,6 +208,7 @@ impl<const N: usize> Geometry<N> {
         match row.spec.coordinate {
             Coordinate::Turn(..) | Coordinate::Angle(..) | Coordinate::Swing(_) => {
                 let plane = self.plane(row.spec.coordinate);
+                row.plane = plane;
                 row.direction = Vector::ZERO;
                 row.base = plane.dot(&b.spin) - plane.dot(&a.spin);
                 row.acceleration = plane.dot(&b.spin_up) - plane.dot(&a.spin_up);

@@ -13,11 +13,10 @@ const MOST_HELD: usize = 6 + 15 + 2;
 /// Least share of a spring's response that its joint can leave it.
 const LEAST_FREE: f64 = 1e-6;
 
-/// The part of its speed below which a motor stands still.
-const STALLED: f64 = 0.1;
+/// The part of its speed below which a motor stands still: one that takes minutes to set out is faster after half a second.
+const STALLED: f64 = 1e-3;
 
-/// What a spring moves has come to its place where it would go no farther, m or rad, in this time, s, and in that in which the spring is
-/// damped.
+/// What a spring moves has come to its place where it would go no farther, m or rad, in this time, s, and in that in which the spring acts.
 const LEAST_WAY: f64 = 1e-3;
 const REST_TIME: f64 = 0.5;
 
@@ -47,7 +46,7 @@ impl<const N: usize> JointRows<N> {
             let row = &rows[index];
             let angle = matches!(row.spec.coordinate, Coordinate::Angle(..) | Coordinate::Swing(..));
             let same = |other: &Row<N>| other.spec.coordinate == row.spec.coordinate;
-            let driven = rows.iter().any(|other| same(other) && matches!(other.spec.role, Role::Driven(_)));
+            let driven = rows.iter().any(|other| same(other) && other.spec.role.drives());
             let response = match row.spec.role {
                 Role::Held(_) if !self.exact => 0.0,
                 Role::AtLeast(_) | Role::AtMost(_) if driven => row.response,
@@ -123,7 +122,7 @@ impl<const N: usize> JointRows<N> {
             Role::Held(_) if self.is_soft => self.soft,
             _ => return false,
         };
-        row.rate.abs() * (REST_TIME + 1.0 / spring.bias_rate) > LEAST_WAY
+        row.rate.abs() * (REST_TIME + spring.settling_time(h)) > LEAST_WAY
     }
 
     /// Keeps a soft joint within its strength, whatever the direction.

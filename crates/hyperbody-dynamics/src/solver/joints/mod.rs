@@ -82,6 +82,8 @@ struct Row<const N: usize> {
     spec: RowSpec,
     /// Unit direction in the world; zero for turns.
     direction: Vector<N>,
+    /// The plane in which a turn is measured, unit, world.
+    plane: Bivector<N>,
     /// Levers over √I in the bodies' solver frames.
     arm_a: [f64; MAX_PLANES],
     arm_b: [f64; MAX_PLANES],
@@ -167,6 +169,7 @@ pub(crate) struct Joints<const N: usize> {
     factors: Vec<f64>,
     scratch: Scratch,
     unknowns: Vec<f64>,
+    creeping: Vec<u32>,
 }
 
 const NONE: u32 = u32::MAX;
@@ -242,6 +245,11 @@ impl<const N: usize> Joints<N> {
         }
     }
 
+    /// Slots of bodies that a motor or a spring was moving at the end of the step, however slowly.
+    pub(crate) fn creeping(&self) -> &[u32] {
+        &self.creeping
+    }
+
     /// Which bodies that rotate freely have joints.
     pub(crate) fn jointed_gyros(&self) -> impl Iterator<Item = usize> {
         self.places.iter().filter_map(|place| place.gyro)
@@ -265,15 +273,18 @@ impl<const N: usize> Joints<N> {
     }
 
     /// Hands the impulses back to the joints of the world.
-    pub(crate) fn store(&self, joints: &mut Arena<Joint<N>, crate::JointHandle>, h: f64) {
+    pub(crate) fn store(&mut self, joints: &mut Arena<Joint<N>, crate::JointHandle>, h: f64) {
+        self.creeping.clear();
         for rows in &self.joints {
             let Some(joint) = joints.at_mut(rows.slot) else { continue };
+            if self.rows[rows.first..rows.end].iter().any(|row| rows.creeps(row, h)) {
+                self.creeping.extend([joint.body_a, joint.body_b]);
+            }
             for (stored, row) in joint.impulses.iter_mut().zip(&self.rows[rows.first..rows.end]) {
                 *stored = [row.impulse, row.settle];
             }
             joint.step_impulse = rows.step_impulse;
             joint.step_twist = rows.step_twist;
-            joint.creeps = self.rows[rows.first..rows.end].iter().any(|row| rows.creeps(row, h));
             let sound = joint.impulses.iter().flatten().all(|impulse| impulse.is_finite());
             if !(sound && rows.step_impulse.is_finite() && rows.step_twist.is_finite()) {
                 // When the body that is no number comes back, nothing of it may start the next step.
@@ -288,6 +299,7 @@ impl<const N: usize> Row<N> {
         Self {
             spec,
             direction: Vector::ZERO,
+            plane: Bivector::ZERO,
             arm_a: [0.0; MAX_PLANES],
             arm_b: [0.0; MAX_PLANES],
             base: 0.0,

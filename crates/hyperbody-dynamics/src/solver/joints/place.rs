@@ -116,6 +116,12 @@ impl<const N: usize> Place<N> {
         };
     }
 
+    /// Angular velocity, impulses included, rad/s.
+    pub(crate) fn spin_now(&self, moving: &Moving<'_, N>) -> Bivector<N> {
+        let still = self.row == 0 || moving.bodies[self.row].inverse_sqrt_mass == 0.0;
+        if still { self.spin } else { self.spin + self.part(moving, 0).1 }
+    }
+
     /// What impulses changed, in the world: velocities at `part` 0, displacements at [`Sizes::VELOCITY`].
     fn part(&self, moving: &Moving<'_, N>, part: usize) -> (Vector<N>, Bivector<N>) {
         let body: &SolverBody<N> = &moving.bodies[self.row];

@@ -32,7 +32,7 @@ impl<const N: usize> Joints<N> {
         for joint in &mut self.joints {
             let (a, b) = (&self.places[joint.a], &self.places[joint.b]);
             let rows = &mut self.rows[joint.first..joint.end];
-            let geometry = joint.geometry(&a.now, &b.now, rows);
+            let geometry = joint.geometry_now((a, b), rows, moving, moment.h);
             joint.axes = geometry.axes;
             rows.iter_mut().for_each(|row| geometry.fill(row, a, b, moving.bodies));
             let own = &mut self.own[joint.own..][..block::len(rows.len())];
@@ -237,7 +237,7 @@ impl<const N: usize> Joints<N> {
                         let geometry = geometry();
                         geometry.mesh(coupling).about(geometry.gap) * impulse
                     }
-                    (Coordinate::Swing(_), _) if impulse != 0.0 => geometry().plane(row.spec.coordinate) * impulse,
+                    (Coordinate::Swing(_), _) => row.plane * impulse,
                     _ => continue,
                 };
             }
