@@ -56,6 +56,6 @@ pub use off::OffFile;
 pub use polytope::Polytope;
 pub use projection::{Projection, Wireframe};
 pub use round_parts::TurnedToward;
-pub use section::{SectionPolytope, SectionScratch, SliceFrame, Solid, SupportMap};
+pub use section::{SectionPolytope, SectionScratch, SliceFrame, Solid, SupportMap, cut_pieces};
 pub use shape::{Piece, Shape};
 pub use surface::Surface;

@@ -34,6 +34,6 @@ pub use cut::SectionScratch;
 pub use frame::SliceFrame;
 pub use polytope::SectionPolytope;
 pub(crate) use rounded_polytope::SectionFunction;
-pub use solid::Solid;
+pub use solid::{Solid, cut_pieces};
 pub(crate) use support::InShadow;
 pub use support::SupportMap;

@@ -90,7 +90,20 @@ impl<const N: usize> Shape<N> {
     /// # Ok::<(), hyperbody_geometry::GeometryError>(())
     /// ```
     pub fn section_volume(&self, frame: &SliceFrame<N>, tolerance: f64) -> Result<f64> {
-        self.solids().iter().map(|solid| solid.section_volume(frame, tolerance)).sum()
+        let solids = self.solids();
+        let mut sum = 0.0;
+        for (solid, stand) in solids.iter().zip(cut_stands(&solids, frame)) {
+            sum += match stand {
+                None => 0.0,
+                Some(Stand::Across) => solid.section_volume(frame, tolerance)?,
+                // By a hair within the piece, for at the end itself rounding decides whether there is anything.
+                Some(Stand::Touches(slack)) => solid.section_volume(
+                    &SliceFrame::from_normal(frame.normal(), frame.offset() + 4.0 * slack)?,
+                    tolerance,
+                )?,
+            };
+        }
+        Ok(sum)
     }
 
     fn add_solids(&self, outer_from_shape: &Pose<N>, solids: &mut Vec<Solid<N>>) {
@@ -108,6 +121,53 @@ impl<const N: usize> Shape<N> {
             }
         }
     }
+}
+
+/// Parts of the size of a piece by which it may stand off a hyperplane that it touches.
+const TOUCHING: f64 = 1e-12;
+
+/// How a piece stands to a hyperplane.
+#[derive(Clone, Copy, PartialEq)]
+enum Stand {
+    /// On both sides, or beside it.
+    Across,
+    /// It ends there, and what it has lies on this side of it: 1 above, −1 below, by the height that is taken for none.
+    Touches(f64),
+}
+
+impl Stand {
+    fn of<const N: usize>(piece: &Solid<N>, frame: &SliceFrame<N>) -> Self {
+        let (normal, offset) = (frame.normal(), frame.offset());
+        let (low, high) = (-piece.reach(-normal) - offset, piece.reach(normal) - offset);
+        let slack = TOUCHING * (high - low + offset.abs());
+        if low.abs() <= slack {
+            Self::Touches(slack)
+        } else if high.abs() <= slack {
+            Self::Touches(-slack)
+        } else {
+            Self::Across
+        }
+    }
+
+    fn is_above(self) -> bool {
+        matches!(self, Self::Touches(slack) if slack >= 0.0)
+    }
+}
+
+/// Which pieces of one solid a hyperplane cuts. Where pieces meet wall on wall within the hyperplane, both would give the wall as
+/// their section, and it would count twice: those that end there from below are left out, so that the section is that just above it.
+/// Where no piece begins there, as at the top of a body, they stay.
+#[must_use]
+pub fn cut_pieces<const N: usize>(pieces: &[Solid<N>], frame: &SliceFrame<N>) -> Vec<bool> {
+    cut_stands(pieces, frame).into_iter().map(|stand| stand.is_some()).collect()
+}
+
+/// How those pieces stand that are cut.
+fn cut_stands<const N: usize>(pieces: &[Solid<N>], frame: &SliceFrame<N>) -> Vec<Option<Stand>> {
+    let stands: Vec<Stand> = pieces.iter().map(|piece| Stand::of(piece, frame)).collect();
+    let begins = stands.iter().any(|stand| stand.is_above());
+    let is_cut = |stand: &Stand| *stand == Stand::Across || stand.is_above() || !begins;
+    stands.into_iter().map(|stand| Some(stand).filter(is_cut)).collect()
 }
 
 impl<const N: usize> Solid<N> {

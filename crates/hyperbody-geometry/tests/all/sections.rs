@@ -2,7 +2,9 @@
 
 use crate::common::{Random, cube, slab_of_cube};
 use hyperbody_geometry::regular::{Size, polytope};
-use hyperbody_geometry::{MassProperties, Polytope, SectionPolytope, SectionScratch, SliceFrame, hull};
+use hyperbody_geometry::{
+    MassProperties, Polytope, SectionPolytope, SectionScratch, Shape, SliceFrame, Solid, cut_pieces, hull, star,
+};
 use hyperbody_math::{Pose, Vector};
 
 fn regular<const N: usize>(name: &str) -> Polytope<N> {
@@ -309,5 +311,37 @@ fn memory_does_not_matter() {
         let frame = frame(random.direction(), 0.5 * random.unit());
         body.section_into(&frame, &mut scratch, &mut out);
         assert_eq!(out, body.section(&frame));
+    }
+}
+
+/// Where pieces of a body meet wall on wall within the hyperplane, the wall counts once; at its foot and its top it is there.
+#[test]
+fn walls_within_the_hyperplane_count_once() {
+    let cube = |half: f64| Shape::<4>::cuboid(Vector([1.0, 1.0, half, 1.0])).unwrap();
+    let at = |w: f64| Pose::from_translation(Vector([0.0, 0.0, 0.0, w]));
+    let body = Shape::compound(vec![(at(-1.0), cube(1.0)), (at(1.0), cube(0.5))]).unwrap();
+    let volume = |offset: f64| {
+        let frame = SliceFrame::from_normal(Vector::unit(3), offset).unwrap();
+        let measured = body.section_volume(&frame, 1e-9).unwrap();
+        let solids = body.solids();
+        let cut = cut_pieces(&solids, &frame);
+        let made = |(solid, cut): (&Solid<4>, bool)| if cut { solid.section::<3>(&frame) } else { None };
+        let added: f64 = solids.iter().zip(cut).filter_map(made).map(|section| section.volume(1e-9).unwrap()).sum();
+        (measured, added)
+    };
+    for (offset, expected) in [(-2.0, 8.0), (-1.0, 8.0), (-1e-9, 8.0), (0.0, 4.0), (1e-9, 4.0), (1.0, 4.0), (2.0, 4.0)]
+    {
+        let (measured, added) = volume(offset);
+        assert!((added - expected).abs() < 1e-12, "at {offset}: {added} for {expected}");
+        assert!((measured - expected).abs() < 1e-9, "at {offset}: measured {measured} for {expected}");
+    }
+    for symbol in ["{5/2,5,3}", "{5/2,3,5}", "{5,5/2,5}"] {
+        let cells = star::cells::<4>(&star::symbol(symbol).unwrap(), Size::Circumradius(1.0), 10_000).unwrap();
+        let parts = cells.into_iter().map(|cell| (Pose::IDENTITY, Shape::polytope(cell.into()).unwrap()));
+        let body = Shape::compound(parts.collect()).unwrap();
+        let volume =
+            |offset| body.section_volume(&SliceFrame::from_normal(Vector::unit(3), offset).unwrap(), 1e-9).unwrap();
+        let (middle, beside) = (volume(0.0), volume(1e-7));
+        assert!((middle / beside - 1.0).abs() < 1e-5, "{symbol}: {middle} through the middle, {beside} beside it");
     }
 }
