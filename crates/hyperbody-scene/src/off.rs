@@ -162,7 +162,10 @@ fn within_limits(file: &OffFile, path: &str) -> Result<()> {
 /// Facets of a convex surface are sought around one of their vertices, so that 100,000 of them take no time to speak of.
 fn facet_inside_the_hull<const N: usize>(file: &OffFile, polytope: &Polytope<N>) -> Option<usize> {
     let vertices = file.vertices::<N>()?;
-    let tolerance = CONVEXITY_TOLERANCE * polytope.bounding_radius();
+    // By its size, wherever it stands.
+    let middle = polytope.vertex_mean();
+    let size = polytope.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max);
+    let tolerance = CONVEXITY_TOLERANCE * size;
     // Vertices of hulls are points that they were made of, to the bit.
     let bits = |point: Vector<N>| point.0.map(|c| (c + 0.0).to_bits());
     let corners: BTreeMap<[u64; N], usize> =
@@ -181,9 +184,13 @@ fn facet_inside_the_hull<const N: usize>(file: &OffFile, polytope: &Polytope<N>)
     })
 }
 
-/// The vertices of each listed facet; none if the file does not go up to the facets.
+/// The vertices of each listed facet; none if the file does not go up to the facets. In the plane the edges are the facets.
 fn facets_as_vertices(file: &OffFile) -> Vec<Vec<u32>> {
-    let mut elements: Vec<Vec<u32>> = if file.dimension() == 2 { Vec::new() } else { file.elements(2).to_vec() };
+    if file.dimension() == 2 {
+        let ends = |cycle: &Vec<u32>, k: usize| vec![cycle[k], cycle[(k + 1) % cycle.len()]];
+        return file.elements(2).iter().flat_map(|cycle| (0..cycle.len()).map(move |k| ends(cycle, k))).collect();
+    }
+    let mut elements: Vec<Vec<u32>> = file.elements(2).to_vec();
     for rank in 3..file.dimension() {
         let gather = |parts: &Vec<u32>| {
             let mut vertices: Vec<u32> =
@@ -294,6 +301,26 @@ mod tests {
         assert_eq!(facet_inside_the_hull(&file, &hull), None);
         // About 10 ms; all against all took seconds.
         assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
+    }
+
+    /// A tetrahedron of size 1 with a dent, and an arrow head, at the origin and far from it.
+    #[test]
+    fn dents_are_seen_wherever_the_body_stands_and_in_the_plane() {
+        for far in [0.0, 1000.0] {
+            let corners = [[0.6, -0.3, 0.0], [-0.3, -0.3, 0.5], [-0.3, -0.3, -0.5], [0.0, 0.6, 0.0], [0.0; 3]];
+            let lines = corners.map(|c| format!("{} {} {}\n", c[0] + far, c[1] + far, c[2] + far)).concat();
+            let dented = format!("OFF\n5 6 9\n{lines}3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 4 1\n3 1 4 2\n3 2 4 0\n");
+            let (counts, properties) = mesh::<3>(&dented, "").unwrap().expect("it is not convex");
+            assert_eq!(counts, [5, 9, 6]);
+            // Base 0.45 and height 0.9 without the dent's height 0.3.
+            assert!((properties.mass / 0.09 - 1.0).abs() < 1e-6, "{}", properties.mass);
+            let arrow = [[0.6, -0.4], [0.0, 0.7], [-0.6, -0.4], [0.0, -0.1]];
+            let lines = arrow.map(|c| format!("{} {}\n", c[0] + far, c[1] + far)).concat();
+            let (counts, properties) =
+                mesh::<2>(&format!("2OFF\n4 1 4\n{lines}4 0 1 2 3\n"), "").unwrap().expect("nor this");
+            assert_eq!(counts, [4, 4]);
+            assert!((properties.mass / 0.48 - 1.0).abs() < 1e-9, "{}", properties.mass);
+        }
     }
 
     #[test]

@@ -127,7 +127,8 @@ impl ShapeFile {
         off::mesh::<N>(&text, "").map_err(|error| error.in_file(Some(&self.file)))
     }
 
-    /// The shape, in `N` dimensions; `N` has to be [`ShapeFile::dimension`].
+    /// The shape, in `N` dimensions, of convex cells if the surface in an OFF file is not convex; `N` has to be
+    /// [`ShapeFile::dimension`].
     ///
     /// # Errors
     /// If the numbers of the shape are not those of a shape.
@@ -135,7 +136,14 @@ impl ShapeFile {
     where
         Dim<N>: EvenAlgebra,
     {
-        let shape = ShapeBuilder::new(beside(&self.file)).shape(&self.shape, "");
+        let mut spec = self.shape.clone();
+        if let ShapeSpec::Polytope(PolytopeSpec::File(file)) = &spec
+            && is_off(&self.file)
+            && self.mesh::<N>()?.is_some()
+        {
+            spec = ShapeSpec::Mesh { file: file.clone() };
+        }
+        let shape = ShapeBuilder::new(beside(&self.file)).shape(&spec, "");
         shape.map_err(|error| error.in_file(Some(&self.file)))
     }
 }
