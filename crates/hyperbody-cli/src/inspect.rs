@@ -21,14 +21,14 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<(), Failure> {
         return if arguments.json { print_json(&report) } else { print(report.as_text()) };
     }
     if path.is_file() && !ShapeFile::holds_scene(path)? {
-        let file = ShapeFile::load(path, arguments.dimension.map(usize::from)).map_err(with_dimension_hint)?;
+        let file = ShapeFile::load(path, arguments.dimension.map(usize::from)).map_err(source::with_dimension_hint)?;
         return inspect_shape(arguments, &file);
     }
     if !path.exists()
         && built_in(&arguments.file).is_err()
         && let Some(shape) = ShapeFile::named(&arguments.file, arguments.dimension.map(usize::from))
     {
-        return inspect_shape(arguments, &shape.map_err(with_dimension_hint)?);
+        return inspect_shape(arguments, &shape.map_err(source::with_dimension_hint)?);
     }
     source::refuse_unknown_shape(&arguments.file, &BUILT_IN.map(|scene| scene.name))?;
     let scene: Scene = source::scene(&arguments.file)?;
@@ -49,12 +49,4 @@ fn check_dimension(arguments: &InspectArguments, dimension: usize) -> Result<(),
         }
         _ => Ok(()),
     }
-}
-
-fn with_dimension_hint(error: hyperbody_scene::SceneError) -> Failure {
-    let message = error.to_string();
-    if message.contains("does not tell its dimension") {
-        return Failure::Input(format!("{message} (--dimension N)"));
-    }
-    Failure::Input(message)
 }

@@ -5,7 +5,7 @@ mod project;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use hyperbody::geometry::{SectionPolytope, SliceFrame, Solid, Surface};
+use hyperbody::geometry::{SectionPolytope, SliceFrame, Solid, Surface, cut_pieces};
 use hyperbody::math::{Dim, EvenAlgebra, Vector};
 use hyperbody_scene::ShapeFile;
 use serde::Serialize;
@@ -26,8 +26,9 @@ use project::Eye;
     hyperbody slice 24-cell.off -o wires.obj --project --eye 3              all edges and faces, in perspective\n  \
     hyperbody slice 24-cell.off -o shadow.stl --project                     what the whole shape covers, seen along w\n\n\
     The axes of the section are those of the shape after the shortest turn that takes its last axis to the normal: across \
-    w, they are x, y and z. Faces keep the number of the cell that they were cut from: as groups in .obj and as colours in \
-    .glb.")]
+    w, they are x, y and z; across −w the turn is half a turn in the plane xw, so that x points back. Faces keep the number of \
+    the cell of a convex shape that they were cut from: as groups in .obj and as colours in .glb. Shapes that are not convex are \
+    cut as convex pieces: the file holds the walls between them too, and faces have numbers of cells of the pieces.")]
 pub(crate) struct SliceArguments {
     /// The shape: an OFF file, the shape of a scene as .json, or the name of a regular polytope of circumradius 1
     pub(crate) file: PathBuf,
@@ -77,6 +78,18 @@ struct Report {
     /// Of the section, in m³; parts of a compound add up. Exact for polytopes and balls; curved sections of a shape of four
     /// dimensions are measured themselves, to about 1e-7, and below further cuts it is what the faces enclose.
     volume: f64,
+    /// What the faces enclose, in m³.
+    enclosed: f64,
+    /// Convex pieces, each with a surface of its own.
+    pieces: usize,
+}
+
+/// What goes into the file.
+struct Written {
+    surface: Surface,
+    volume: f64,
+    enclosed: f64,
+    pieces: usize,
 }
 
 pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
@@ -88,7 +101,7 @@ pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
     if arguments.project {
         return project(arguments, &target, &file, &planes);
     }
-    let (surface, volume) = match file.dimension {
+    let written = match file.dimension {
         4 => surface(down::<4, 3>(solids(&file)?, planes)?.0, 1, arguments)?,
         5 => {
             let (solids, planes) = down::<5, 4>(solids(&file)?, planes)?;
@@ -100,25 +113,38 @@ pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
             surface(down::<4, 3>(solids, planes)?.0, 3, arguments)?
         }
     };
-    target.write(&content(&surface, target.extension()))?;
-    tell(arguments, &surface, volume)
+    target.write(&content(&written.surface, target.extension()))?;
+    tell(arguments, &written)
 }
 
-fn tell(arguments: &SliceArguments, surface: &Surface, volume: f64) -> Result<(), Failure> {
+fn tell(arguments: &SliceArguments, written: &Written) -> Result<(), Failure> {
     let report = Report {
         file: arguments.output.display().to_string(),
-        vertices: surface.vertices().len(),
-        faces: surface.polygon_count(),
-        volume,
+        vertices: written.surface.vertices().len(),
+        faces: written.surface.polygon_count(),
+        volume: written.volume,
+        enclosed: written.enclosed,
+        pieces: written.pieces,
     };
     if arguments.json {
         return print_json(&report);
     }
-    let lines = [
+    let mut lines = vec![
         ("vertices", report.vertices.to_string()),
         ("faces", report.faces.to_string()),
-        ("volume", format!("{} m³", number(volume))),
+        ("volume", format!("{} m³", number(report.volume))),
     ];
+    if (report.enclosed - report.volume).abs() > 1e-9 * report.volume {
+        lines.push(("enclosed", format!("{} m³, by the faces of the file", number(report.enclosed))));
+    }
+    if report.pieces > 1 {
+        let also = if arguments.project {
+            "their outlines may overlap, and volumes add up"
+        } else {
+            "walls between them are faces of the file too"
+        };
+        lines.push(("pieces", format!("{}: {also}", report.pieces)));
+    }
     print(format!("{}\n\n{}", report.file, labelled(lines)))
 }
 
@@ -137,10 +163,10 @@ fn project(arguments: &SliceArguments, target: &Target, file: &ShapeFile, planes
             project::next::<4, 3>(&seen, &planes, eye)?.0
         }
     };
-    let (surface, volume) = project::outlines(&seen, arguments.tolerance)?;
+    let written = project::outlines(&seen, arguments.tolerance)?;
     let wires = if target.extension() == "obj" { project::wires_as_obj(&seen) } else { None };
-    target.write(&wires.map_or_else(|| content(&surface, target.extension()), String::into_bytes))?;
-    tell(arguments, &surface, volume)
+    target.write(&wires.map_or_else(|| content(&written.surface, target.extension()), String::into_bytes))?;
+    tell(arguments, &written)
 }
 
 fn content(surface: &Surface, extension: &str) -> Vec<u8> {
@@ -162,7 +188,7 @@ fn load(path: &Path, dimension: Option<u8>) -> Result<ShapeFile, Failure> {
     if named.is_none() {
         source::refuse_unknown_shape(&path.to_string_lossy(), &[])?;
     }
-    let file = named.unwrap_or_else(|| ShapeFile::load(path, dimension))?;
+    let file = named.unwrap_or_else(|| ShapeFile::load(path, dimension)).map_err(source::with_dimension_hint)?;
     if !(4..=6).contains(&file.dimension) {
         let message = format!("is a shape of {} dimensions; sections in 3D are those of 4 to 6", file.dimension);
         return Err(Failure::Input(format!("{}: {message}", path.display())));
@@ -224,8 +250,11 @@ fn down<const N: usize, const M: usize>(
     planes: Vec<Plane>,
 ) -> Result<(Pieces<M>, Vec<Plane>), Failure> {
     let (frame, lower) = frame_and_rest::<N, M>(&planes)?;
-    let cut = |(first, solid): &(u32, Solid<N>)| Some((*first, solid.section::<M>(&frame)?));
-    let left: Pieces<M> = solids.iter().filter_map(cut).collect();
+    let (firsts, solids): (Vec<u32>, Vec<Solid<N>>) = solids.into_iter().unzip();
+    let cut = |((first, solid), cut): ((u32, &Solid<N>), bool)| {
+        Some((first, if cut { solid.section::<M>(&frame)? } else { return None }))
+    };
+    let left: Pieces<M> = firsts.into_iter().zip(&solids).zip(cut_pieces(&solids, &frame)).filter_map(cut).collect();
     if left.is_empty() {
         return Err(Failure::Input(missed(&solids, frame.normal(), frame.offset())));
     }
@@ -254,9 +283,9 @@ fn frame_and_rest<const N: usize, const M: usize>(planes: &[Plane]) -> Result<(S
 }
 
 /// Says where the hyperplane would have met something.
-fn missed<const N: usize>(solids: &Pieces<N>, normal: Vector<N>, offset: f64) -> String {
+fn missed<const N: usize>(solids: &[Solid<N>], normal: Vector<N>, offset: f64) -> String {
     let reach = |direction: Vector<N>| {
-        let reaches = solids.iter().map(|(_, solid)| solid.reach(direction));
+        let reaches = solids.iter().map(|solid| solid.reach(direction));
         reaches.fold(f64::NEG_INFINITY, f64::max)
     };
     format!(
@@ -270,24 +299,38 @@ fn missed<const N: usize>(solids: &Pieces<N>, normal: Vector<N>, offset: f64) ->
 const VOLUME_TOLERANCE: f64 = 1e-7;
 
 /// The surface of all pieces, and their volume; `cuts` have led here.
-fn surface(solids: Pieces<3>, cuts: usize, arguments: &SliceArguments) -> Result<(Surface, f64), Failure> {
-    let axes = (0..3).flat_map(|axis| [Vector::unit(axis), -Vector::unit(axis)]);
-    let reaches = axes.flat_map(|axis| solids.iter().map(move |(_, solid)| solid.reach(axis).abs()));
-    let size = reaches.fold(0.0, f64::max);
-    let tolerance = arguments.tolerance.unwrap_or(1e-3 * size);
+fn surface(solids: Pieces<3>, cuts: usize, arguments: &SliceArguments) -> Result<Written, Failure> {
+    let tolerance = arguments.tolerance.unwrap_or_else(|| usual_tolerance(solids.iter().map(|(_, solid)| solid)));
     let refuse = |error: hyperbody::prelude::GeometryError| Failure::Input(error.to_string());
     let mut surface = Surface::new();
-    let mut volume = 0.0;
+    let (mut volume, mut enclosed, mut pieces) = (0.0, 0.0, 0);
     for (first_source, solid) in solids {
         let Some(polytope) = solid.to_polytope(tolerance).map_err(refuse)? else { continue };
         let exact = matches!(solid, Solid::Polytope(_));
         let measured = matches!(solid, Solid::Ball { .. }) || cuts == 1;
-        volume += if measured && !exact {
-            solid.volume(VOLUME_TOLERANCE).map_err(refuse)?
-        } else {
-            SectionPolytope::mass_properties(&polytope).mass
-        };
+        let within = SectionPolytope::mass_properties(&polytope).mass;
+        volume += if measured && !exact { solid.volume(VOLUME_TOLERANCE).map_err(refuse)? } else { within };
+        enclosed += within;
+        pieces += 1;
         surface.add_polytope(&if exact { polytope } else { polytope.with_source(0) }, first_source);
     }
-    Ok((surface, volume))
+    check_written(&surface)?;
+    Ok(Written { surface, volume, enclosed, pieces })
+}
+
+/// A thousandth of half the greatest extent of all pieces, wherever they stand.
+fn usual_tolerance<'a>(solids: impl Iterator<Item = &'a Solid<3>> + Clone) -> f64 {
+    let reach =
+        |direction: Vector<3>| solids.clone().map(|solid| solid.reach(direction)).fold(f64::NEG_INFINITY, f64::max);
+    let extent = |axis| reach(Vector::unit(axis)) + reach(-Vector::unit(axis));
+    0.5e-3 * (0..3).map(extent).fold(0.0, f64::max)
+}
+
+/// Curved pieces that are next to flat have no faces; if that is all, there is nothing to write.
+fn check_written(surface: &Surface) -> Result<(), Failure> {
+    if surface.polygon_count() > 0 {
+        return Ok(());
+    }
+    let message = "what is left is too thin to be written as a surface: less than 1e-8 of its size in some direction";
+    Err(Failure::Input(message.to_owned()))
 }

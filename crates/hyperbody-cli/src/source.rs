@@ -56,6 +56,15 @@ pub(crate) fn refuse_unknown_shape(argument: &str, others: &[&str]) -> Result<()
     Err(Failure::Input(message))
 }
 
+/// What a shape file is refused with; the option is named where a dimension is missing.
+pub(crate) fn with_dimension_hint(error: hyperbody_scene::SceneError) -> Failure {
+    let message = error.to_string();
+    if message.contains("does not tell its dimension") {
+        return Failure::Input(format!("{message} (--dimension N)"));
+    }
+    Failure::Input(message)
+}
+
 /// The recording of an argument; `None` if the file begins otherwise, or there is none.
 pub(crate) fn recording(argument: &str) -> Result<Option<Recording>, Failure> {
     let path = Path::new(argument);

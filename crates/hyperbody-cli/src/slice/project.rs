@@ -5,7 +5,7 @@ use std::fmt::Write;
 use hyperbody::geometry::projection::{Projection, Wireframe};
 use hyperbody::geometry::{SectionPolytope, SliceFrame, Solid, Surface};
 
-use super::{Pieces, Plane, frame_and_rest};
+use super::{Pieces, Plane, Written, check_written, frame_and_rest, usual_tolerance};
 use crate::failure::Failure;
 
 /// A piece as it is seen on the way down.
@@ -78,23 +78,22 @@ fn refuse(error: hyperbody::prelude::GeometryError) -> Failure {
 }
 
 /// The outlines of all pieces as surfaces, and their volume.
-pub(super) fn outlines(pieces: &[Seen<3>], tolerance: Option<f64>) -> Result<(Surface, f64), Failure> {
+pub(super) fn outlines(pieces: &[Seen<3>], tolerance: Option<f64>) -> Result<Written, Failure> {
+    let curved = pieces.iter().filter_map(|piece| if let Seen::Curved(solid) = piece { Some(solid) } else { None });
+    let tolerance = tolerance.unwrap_or_else(|| usual_tolerance(curved));
     let mut surface = Surface::new();
     let mut volume = 0.0;
     for (number, piece) in pieces.iter().enumerate() {
         let polytope = match piece {
             Seen::Wire(wire) => Some(SectionPolytope::from_polytope(&wire.outline().map_err(refuse)?)),
-            Seen::Curved(solid) => {
-                let size =
-                    (0..3).map(|axis| solid.reach(hyperbody::math::Vector::unit(axis)).abs()).fold(0.0, f64::max);
-                solid.to_polytope(tolerance.unwrap_or(1e-3 * size)).map_err(refuse)?
-            }
+            Seen::Curved(solid) => solid.to_polytope(tolerance).map_err(refuse)?,
         };
         let Some(polytope) = polytope else { continue };
         volume += polytope.mass_properties().mass;
         surface.add_polytope(&polytope.with_source(0), number as u32);
     }
-    Ok((surface, volume))
+    check_written(&surface)?;
+    Ok(Written { surface, volume, enclosed: volume, pieces: pieces.len() })
 }
 
 /// All edges and faces of the polytopes as an OBJ file: lines and polygons, those behind others included. `None` if a piece is

@@ -151,11 +151,54 @@ fn star_polytopes_are_weighed_and_cut() {
     let stl = file("slice/star.stl", "");
     let stl = stl.to_str().expect("UTF-8");
     let report = json_of(&["slice", &small, "-o", stl, "--json"]);
-    let ball = 4.0 / 3.0 * std::f64::consts::PI;
-    assert!((0.4 * ball..ball).contains(&number(&report["volume"])), "{report}");
+    // Cells meet wall on wall in this hyperplane: each wall counts once.
+    let beside = json_of(&["slice", &small, "-o", stl, "--json", "--offset", "1e-6"]);
+    let middle = number(&report["volume"]);
+    assert!((middle - 2.96556).abs() < 1e-4 && (middle / number(&beside["volume"]) - 1.0).abs() < 1e-4, "{report}");
     assert!(number(&report["faces"]) > 100.0, "{report}");
     let output = hyperbody(&["slice", &small, "-o", stl, "--offset", "1.5"]);
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// A prism over an L, and a ball far from the origin: what `inspect` weighs, `slice` cuts, wherever it stands.
+#[test]
+fn files_that_are_not_convex_and_far_ones_are_cut() {
+    let mut text = String::from("4OFF\n24 24 0 10\n");
+    let hexagon = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
+    for [x, y] in hexagon {
+        [[0, 0], [1, 0], [1, 1], [0, 1]].iter().for_each(|[z, w]| text += &format!("{x} {y} {z} {w}\n"));
+    }
+    // Faces: 4 hexagons, 24 side by side, 6 squares; cells: 4 prisms over the hexagon, 6 boxes over its sides.
+    text = text.replace("24 24 0 10", "24 34 0 10");
+    let at = |u: usize, k: usize| 4 * (u % 6) + k % 4;
+    let mut line = |parts: Vec<usize>| {
+        text += &parts.len().to_string();
+        parts.iter().for_each(|part| text += &format!(" {part}"));
+        text.push('\n');
+    };
+    (0..4).for_each(|k| line((0..6).map(|u| at(u, k)).collect()));
+    for u in 0..6 {
+        (0..4).for_each(|k| line(vec![at(u, k), at(u + 1, k), at(u + 1, k + 1), at(u, k + 1)]));
+    }
+    (0..6).for_each(|u| line((0..4).map(|k| at(u, k)).collect()));
+    let side = |u: usize, k: usize| 4 + 4 * (u % 6) + k % 4;
+    (0..4).for_each(|k| line([k, (k + 1) % 4].into_iter().chain((0..6).map(|u| side(u, k))).collect()));
+    (0..6).for_each(|u| line([28 + u, 28 + (u + 1) % 6].into_iter().chain((0..4).map(|k| side(u, k))).collect()));
+    let shape = file("slice/l.off", text);
+    let shape = shape.to_str().expect("UTF-8");
+    let out = file("slice/l.obj", "");
+    let out = out.to_str().expect("UTF-8");
+    assert!((number(&json_of(&["inspect", shape, "--json"])["volume"]) - 3.0).abs() < 1e-12);
+    let report = json_of(&["slice", shape, "-o", out, "--offset", "0.5", "--json"]);
+    assert!((number(&report["volume"]) - 3.0).abs() < 1e-12 && report["pieces"] == 2, "{report}");
+    let far = r#"{"compound": {"parts": [{"shape": {"ball": {"radius": 1}}, "position": [1000, 0, 0, 0]}]}}"#;
+    let far = file("slice/far.json", far);
+    let report = json_of(&["slice", far.to_str().expect("UTF-8"), "-o", out, "--json"]);
+    let ball = 4.0 / 3.0 * std::f64::consts::PI;
+    assert!((number(&report["volume"]) / ball - 1.0).abs() < 1e-9, "{report}");
+    assert!((number(&report["enclosed"]) / ball - 1.0).abs() < 0.01, "{report}");
+    let report = json_of(&["slice", far.to_str().expect("UTF-8"), "-o", out, "--project", "--json"]);
+    assert!((number(&report["volume"]) / ball - 1.0).abs() < 0.01, "{report}");
 }
 
 #[test]
