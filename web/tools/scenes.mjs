@@ -38,6 +38,9 @@ function ring(radius, thick, segments, [i, j]) {
   return { compound: { parts } };
 }
 
+/** What rolls comes to rest, as on a carpet: nothing leaves the shelf by itself. */
+const ROLLS_OUT = { linear_damping: 0.5, angular_damping: 2 };
+
 const scenes = {
   hello4d() {
     return {
@@ -46,9 +49,9 @@ const scenes = {
         floor(4),
         { name: "tesseract", shape: box(0.5, 0.5, 0.5, 0.5), position: at(4, -1.6, 0.5, 0.4, 0), rotation: turns({ xz: 20 }) },
         { name: "24-cell", shape: regular("24-cell", 0.8), position: at(4, 0.1, 0.9, -0.9, 0.1), rotation: turns({ xw: 25, yz: 20 }) },
-        { name: "ball", shape: ball(0.55), position: at(4, 1.75, 0.55, -0.4, 0.15) },
+        { name: "ball", shape: ball(0.55), position: at(4, 1.75, 0.55, -0.4, 0.15), ...ROLLS_OUT },
         { name: "16-cell", shape: regular("16-cell", 0.85), position: at(4, 0.55, 1.2, 1.15, -0.1), rotation: turns({ xy: 30, zw: 20 }) },
-        { name: "duocylinder", shape: duocylinder(0.5, 0.5), position: at(4, -0.55, 2.4, 0.3, 0.1), rotation: turns({ yz: 25, xw: 15 }) },
+        { name: "duocylinder", shape: duocylinder(0.5, 0.5), position: at(4, -0.55, 2.4, 0.3, 0.1), rotation: turns({ yz: 25, xw: 15 }), ...ROLLS_OUT },
         { name: "plank", shape: box(1.1, 0.12, 0.3, 0.5), position: at(4, -1.2, 1.7, -0.6, 0), rotation: turns({ xz: 35 }) },
         { name: "in front, along w", shape: box(0.45, 0.45, 0.45, 0.45), position: at(4, 1.2, 0.45, 0.9, 1.35), rotation: turns({ xz: 30 }) },
         { name: "behind, along w", shape: regular("24-cell", 0.65), position: at(4, -0.4, 0.6, 1.5, -1.3), rotation: turns({ xw: 10 }) },

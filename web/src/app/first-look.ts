@@ -11,8 +11,8 @@ const SAME_SLICE = 1e-6;
 const SETTLING_SECONDS = 6;
 const SHRINK_RATE = 1;
 /** What makes the picture larger than so many times what it was at first, is let go where it is farther off than this share of it. */
-const MOST_GROWTH = 2.4;
-const LET_GO = 0.7;
+const MOST_GROWTH = 1.7;
+const LET_GO = 0.35;
 
 /** Where the slice stands, and how it is moved at once. */
 interface Slicing {
@@ -29,6 +29,7 @@ export class FirstLook {
   private size = 0;
   private readonly seen = new Box3();
   private readonly limit = new Box3();
+  private readonly first = new Box3();
 
   constructor(private readonly stage: Stage, private readonly slicing: Slicing) {
     for (const hand of ["pointerdown", "wheel", "keydown"]) addEventListener(hand, () => this.stay(), { capture: true, passive: true });
@@ -70,6 +71,7 @@ export class FirstLook {
     if (!box) return true;
     this.stage.setSight(box);
     this.seen.copy(box);
+    this.first.copy(box);
     this.size = box.getSize(new Vector3()).length();
     this.limit.copy(box).expandByScalar(LET_GO * this.size);
     this.until = frame.time + SETTLING_SECONDS;
@@ -82,7 +84,7 @@ export class FirstLook {
     const now = this.toSee(frame, bodies);
     if (!now || now.isEmpty()) return;
     // What leaves as a whole would be gone: it is followed until somebody takes hold.
-    if (frame.time > this.until && now.intersectsBox(this.limit)) this.until = -Infinity;
+    if (frame.time > this.until && now.intersectsBox(this.first)) this.until = -Infinity;
     const share = 1 - Math.exp(-SHRINK_RATE * seconds);
     this.seen.min.lerp(now.min, share).min(now.min);
     this.seen.max.lerp(now.max, share).max(now.max);

@@ -30,6 +30,9 @@ const LONGEST_FRAME = 0.1;
 /** The camera, which only follows, makes up for more of it: pictures of a slow machine come seldom, and the world does not wait. */
 const LONGEST_CAMERA_FRAME = 0.6;
 
+/** Pictures to keep have so many pixels a CSS pixel at least, however coarsely a slow machine draws. */
+const PICTURE_RATIO = 2;
+
 /** What runs after a scene has stopped the engine twice: built in, and small. */
 const SAFE_SCENE = "dice4d";
 
@@ -437,12 +440,15 @@ export class Playground {
       this.tell(frame, time);
       if (!calm.value) this.look.settle(cameraSeconds, frame, this.bodies);
     }
+    const fine = this.pictureWanted !== null && !this.stage.renderer.xr.isPresenting;
+    if (fine) this.stage.resize(innerWidth, innerHeight, Math.max(PICTURE_RATIO, devicePixelRatio));
     this.stage.render(cameraSeconds);
     if (this.flatland.value) this.flat.render(this.slice.frame, !this.stage.renderer.xr.isPresenting);
     this.quality.pictureTook(seconds);
     // The canvas still holds what was drawn: it is cleared once this callback returns.
     if (this.pictureWanted) this.stage.renderer.domElement.toBlob(handOver(this.pictureWanted), "image/png");
     this.pictureWanted = null;
+    if (fine) this.quality.resize(innerWidth, innerHeight);
   }
 
   /** The worker rests while the page is hidden, unless a headset shows it. */

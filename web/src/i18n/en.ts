@@ -5,6 +5,8 @@ export const en = {
   tagline: "Hold the fourth dimension",
   hintMouse: "Drag a body to pull it. Wheel while dragging pushes it along w. Q and E move the slice.",
   hintTouch: "Pull a body with one finger; a second finger pushes it along w. Drag the strip to move the slice.",
+  hintPlainMouse: "Drag a body to pull it, and let go in motion to throw it. Drag the ground to look around.",
+  hintPlainTouch: "Pull a body with one finger, and let go in motion to throw it. Drag the ground to look around.",
   starting: "Starting the engine…",
 
   scenes: "Scenes",

@@ -7,6 +7,8 @@ export const zh: Words = {
   tagline: "把第四维握在手里",
   hintMouse: "拖动物体来拉它；拖动时滚轮把它沿 w 推；Q 和 E 移动切片。",
   hintTouch: "单指拉物体，第二指把它沿 w 推；拖动下方的带子移动切片。",
+  hintPlainMouse: "拖动物体来拉它，移动中松开就能扔出去。拖动地面可环视四周。",
+  hintPlainTouch: "用一根手指拉动物体，移动中松开就能扔出去。拖动地面可环视四周。",
   starting: "正在启动物理引擎……",
 
   scenes: "场景",

@@ -17,6 +17,8 @@ const LOG = "M8 6h8a5.500 5.500 0 0 1 0 11H8A5.500 5.500 0 0 1 8 6z";
 const SLAB = "M3 13l7-4 11 3-7 4zM3 13v2l11 3 7-4v-2";
 const BAR = "M4 17L17 4l3 3L7 20z";
 const HEX = "M12 3l8 4.500v9L12 21l-8-4.500v-9zM12 3v18M4 7.500l16 9M20 7.500l-16 9";
+const CELLS = "M12 3l8.500 6.200-3.200 10H6.700l-3.200-10zM12 8l4 2.900-1.500 4.700h-5L8 10.900zM12 3v5M20.500 9.200L16 10.900M17.300 19.200l-2.800-3.600M6.700 19.200l2.800-3.600M3.500 9.200L8 10.900";
+const FINE = "M12 3.500a8.500 8.500 0 1 0 0 17 8.500 8.500 0 0 0 0-17M12 3.500l7.400 12.700H4.600zM12 20.500L4.600 7.800h14.800z";
 const DUO = "M12 5a7 3 0 1 0 0 6 7 3 0 0 0 0-6M5 8v8a7 3 0 0 0 14 0V8M12 8l3.500 8";
 const TUBE = "M12 4a6 2.500 0 1 0 0 5 6 2.500 0 0 0 0-5M6 6.500v11a6 2.500 0 0 0 12 0v-11";
 
@@ -40,8 +42,8 @@ export function shapesFor(n: number): ShapeChoice[] {
       regular("simplex", STAR, "5-cell"),
       regular("cross", DIAMOND, "16-cell"),
       regular("c24", HEX, "24-cell"),
-      regular("c120", HEX, "120-cell"),
-      regular("c600", STAR, "600-cell"),
+      regular("c120", CELLS, "120-cell"),
+      regular("c600", FINE, "600-cell"),
       { name: "duocylinder", icon: DUO, shape: product({ ball: { radius: 0.5 } }, "xy", { ball: { radius: 0.5 } }, "zw") },
       { name: "spherinder", icon: TUBE, shape: product({ ball: { radius: 0.5 } }, "xyz", { box: { half_extents: [0.5] } }, "w") },
     ];

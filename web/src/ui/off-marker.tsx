@@ -3,8 +3,11 @@
 import { useEffect, useRef } from "preact/hooks";
 import { t } from "../i18n";
 import { COOL, WARM } from "../view/palette";
-import { offName, signed } from "./axes";
+import { offName } from "./axes";
 import { usePlayground } from "./context";
+
+/** Distances below this have a second digit, m. */
+const NEAR = 0.1;
 
 export function OffMarker() {
   const playground = usePlayground();
@@ -22,7 +25,7 @@ export function OffMarker() {
       const [x, y] = [Math.max(40, Math.min(innerWidth - 40, at.x)), Math.max(70, Math.min(innerHeight - 150, at.y))];
       element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
       element.style.setProperty("--side", away > 0 ? WARM : COOL);
-      element.textContent = `${offName(playground.slice.frame, off)} ${away > 0 ? "+" : ""}${signed(away, 1).trim()} m`;
+      element.textContent = `${offName(playground.slice.frame, off)} ${away > 0 ? "+" : "−"}${Math.abs(away).toFixed(Math.abs(away) < NEAR ? 2 : 1)} m`;
     };
     playground.onPicture.add(place);
     return () => void playground.onPicture.delete(place);

@@ -2,7 +2,7 @@
 // cool off the slice and fade with the distance from it, along each rod. Rods are instances of one cylinder and beads of one
 // ball, so a frame copies two small arrays and allocates nothing.
 import {
-  BufferGeometry, Color, CylinderGeometry, DynamicDrawUsage, Group, IcosahedronGeometry, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, ShaderMaterial, Vector3, Vector4,
+  BufferGeometry, Color, CylinderGeometry, DynamicDrawUsage, GreaterDepth, Group, IcosahedronGeometry, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, ShaderMaterial, Vector3, Vector4,
 } from "three";
 import type { Joints } from "../engine/protocol";
 import { COOL, WARM } from "./palette";
@@ -13,6 +13,8 @@ const RADIUS_LIMITS = [0.008, 0.05] as const;
 const BEAD = 1.8;
 /** They are seen so many times as far off the slice as ghosts: they are few and thin. */
 const FARTHER = 2;
+/** How much of a bead is seen through what covers it. */
+const THROUGH = 0.4;
 const STEEL = "#ccd5ea";
 /** Numbers of a point: its place, and how far off the slice it is. */
 const POINT = 4;
@@ -31,7 +33,7 @@ export class JointLayer {
   private readonly plane = { value: new Vector4() };
 
   constructor() {
-    this.group.add(...this.meshes(false));
+    this.group.add(...this.meshes(false), this.covered());
     this.flat.add(...this.meshes(true));
   }
 
@@ -42,6 +44,17 @@ export class JointLayer {
       mesh.renderOrder = 1;
       return mesh;
     });
+  }
+
+  /** Beads that lie within bodies, as hinges do, shine through. */
+  private covered(): Mesh {
+    const material = this.material(true, false);
+    Object.assign(material, { depthFunc: GreaterDepth, depthWrite: false });
+    material.uniforms.strength.value = THROUGH;
+    const mesh = new Mesh(this.beads.geometry, material);
+    mesh.frustumCulled = false;
+    mesh.renderOrder = 1;
+    return mesh;
   }
 
   setOn(on: boolean): void {
@@ -67,7 +80,7 @@ export class JointLayer {
       defines: { ...(bead && { BEAD: 1 }), ...(flat && { FLAT: 1 }) },
       uniforms: {
         radius: this.radius, reach: this.reach, plane: this.plane,
-        steel: { value: new Color(STEEL) }, warm: { value: new Color(WARM) }, cool: { value: new Color(COOL) },
+        strength: { value: 1 }, steel: { value: new Color(STEEL) }, warm: { value: new Color(WARM) }, cool: { value: new Color(COOL) },
       },
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -141,11 +154,11 @@ const VERTEX = /* glsl */ `
     }`;
 
 const FRAGMENT = /* glsl */ `
-  uniform vec3 steel, warm, cool; uniform float reach;
+  uniform vec3 steel, warm, cool; uniform float reach, strength;
   varying vec3 n; varying float o;
   void main() {
     float t = clamp(1.0 - abs(o) / reach, 0.0, 1.0);
-    float alpha = t * t * (3.0 - 2.0 * t);
+    float alpha = strength * t * t * (3.0 - 2.0 * t);
     if (alpha < 0.01) discard;
     vec3 colour = mix(steel, o > 0.0 ? warm : cool, smoothstep(0.05, 0.4, abs(o)));
     #ifndef FLAT
