@@ -112,7 +112,9 @@ export class KeyboardInput {
     const bodies = (this.playground.scene.value?.bodies ?? []).filter((body) => !body.endless);
     if (bodies.length === 0) return;
     const at = bodies.findIndex((body) => body.id === this.playground.selected.value);
-    this.playground.select(bodies[(at + step + bodies.length) % bodies.length].id);
+    // Before the first comes the last, also where nothing is selected yet.
+    const from = at < 0 && step < 0 ? 0 : at;
+    this.playground.select(bodies[(from + step + bodies.length) % bodies.length].id);
   }
 
   /** Goes to the body whose middle lies next along the first off direction. */
