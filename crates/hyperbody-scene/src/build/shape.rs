@@ -117,7 +117,14 @@ where
                     let position = vector_or_zero(&part.position, &format!("{place}.position"))?;
                     let turn = rotation::rotation(&part.rotation, &format!("{place}.rotation"))?;
                     let shape = self.shape_at_depth(&part.shape, &format!("{place}.shape"), depth + 1)?;
-                    placed.push((Pose::new(turn, position), shape));
+                    let pose = Pose::new(turn, position);
+                    match shape {
+                        // Meshes, stars and compounds within compounds are lists of parts themselves.
+                        Shape::Compound { parts } => {
+                            placed.extend(parts.into_iter().map(|(own, part)| (pose * own, part)));
+                        }
+                        shape => placed.push((pose, shape)),
+                    }
                 }
                 Shape::compound(placed).map_err(refuse(&path))
             }
