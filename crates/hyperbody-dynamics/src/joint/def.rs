@@ -372,6 +372,11 @@ impl<const N: usize> JointDef<N> {
         if let Some((hz, damping_ratio)) = self.softness {
             check_spring("the joint", hz, damping_ratio)?;
         }
+        self.validate_strengths()?;
+        self.groups().map(|_| ())
+    }
+
+    fn validate_strengths(&self) -> Result<(), WorldError> {
         let strengths = [
             ("max_force", self.max_force),
             ("max_torque", self.max_torque),
@@ -389,7 +394,7 @@ impl<const N: usize> JointDef<N> {
                 self.max_force, self.max_torque
             )));
         }
-        self.groups().map(|_| ())
+        Ok(())
     }
 
     fn validate_cone(&self, axis: usize, angle: f64) -> Result<(), WorldError> {

@@ -20,21 +20,12 @@ where
     Dim<N>: EvenAlgebra,
 {
     let path = format!("{path}.{}", joint.key());
-    let body = |name: &String, key: &str| {
-        let index = names.get(name.as_str()).ok_or_else(|| {
-            let hint = meant(name, names.keys().map(String::as_str)).map_or_else(
-                || format!("there are {}", quoted(names.keys().map(String::as_str))),
-                |near| format!("the nearest is \"{near}\""),
-            );
-            SceneError::value(format!("{path}.{key}"), format!("no body is called \"{name}\"; {hint}"))
-        })?;
-        Ok(handles[*index])
-    };
     if let Some(a) = &joint.a
         && *a == joint.b
     {
         return Err(SceneError::value(&path, format!("ties \"{a}\" to itself; a and b have to differ")));
     }
+    let body = |name: &String, key: &str| Ok(handles[number_of(name, &format!("{path}.{key}"), names)?]);
     let a = joint.a.as_ref().map(|a| body(a, "a")).transpose()?;
     let b = body(&joint.b, "b")?;
     let frame = |anchor: &[f64], turn, side: &str| {
@@ -43,8 +34,40 @@ where
     };
     let frame_a = frame(&joint.anchor_a, &joint.rotation_a, "a")?;
     let frame_b = frame(&joint.anchor_b, &joint.rotation_b, "b")?;
+    let mut def = of_kind(joint, &path, (a, b), (frame_a, frame_b))?;
+    if let Some(cone) = &joint.cone {
+        def = def.cone(axis(N, &cone.along, &format!("{path}.cone"))?, cone.angle.radians());
+    }
+    def.softness = joint.softness.map(|[hz, ratio]| (hz, ratio));
+    def.break_force = joint.break_force.unwrap_or(f64::INFINITY);
+    def.break_torque = joint.break_torque.unwrap_or(f64::INFINITY);
+    def.collide |= joint.collide;
+    Ok(def)
+}
+
+/// Which body has a name.
+fn number_of(name: &str, path: &str, names: &BTreeMap<String, usize>) -> Result<usize> {
+    names.get(name).copied().ok_or_else(|| {
+        let hint = meant(name, names.keys().map(String::as_str)).map_or_else(
+            || format!("there are {}", quoted(names.keys().map(String::as_str))),
+            |near| format!("the nearest is \"{near}\""),
+        );
+        SceneError::value(path, format!("no body is called \"{name}\"; {hint}"))
+    })
+}
+
+/// What its kind keeps, and what drives the rest.
+fn of_kind<const N: usize>(
+    joint: &Joint,
+    path: &str,
+    (a, b): (Option<BodyHandle>, BodyHandle),
+    (frame_a, frame_b): (Pose<N>, Pose<N>),
+) -> Result<JointDef<N>>
+where
+    Dim<N>: EvenAlgebra,
+{
     let (from, to) = (frame_a.translation, frame_b.translation);
-    let mut def = match &joint.kind {
+    Ok(match &joint.kind {
         JointKind::Ball => JointDef::ball(a, b, from, to),
         JointKind::Weld => JointDef::weld(a, b, frame_a, frame_b),
         JointKind::Hinge { plane: name } => {
@@ -60,7 +83,7 @@ where
             JointDef::axle(a, b, frame_a, frame_b, keeps)
         }
         JointKind::Slider { along } => {
-            let axis = axis(N, along, &path)?;
+            let axis = axis(N, along, path)?;
             JointDef::slider(a, b, frame_a, frame_b, axis).axis(axis, freedom(joint))
         }
         JointKind::Distance { length } => JointDef::distance(a, b, from, to, *length),
@@ -74,7 +97,7 @@ where
         }
         JointKind::Screw { plane: name, along, lead } => {
             let (i, j) = plane::<N>(name, &format!("{path}.plane"))?;
-            let axis = axis(N, along, &path)?;
+            let axis = axis(N, along, path)?;
             if axis == i || axis == j {
                 let message = format!("is {along}, an axis of the plane {name}; a screw goes along one across it");
                 return Err(SceneError::value(format!("{path}.along"), message));
@@ -86,15 +109,7 @@ where
             let free = JointDef::free(a, b).frames(frame_a, frame_b);
             free.plane(i, j, freedom(joint)).collide(true)
         }
-    };
-    if let Some(cone) = &joint.cone {
-        def = def.cone(axis(N, &cone.along, &format!("{path}.cone"))?, cone.angle.radians());
-    }
-    def.softness = joint.softness.map(|[hz, ratio]| (hz, ratio));
-    def.break_force = joint.break_force.unwrap_or(f64::INFINITY);
-    def.break_torque = joint.break_torque.unwrap_or(f64::INFINITY);
-    def.collide |= joint.collide;
-    Ok(def)
+    })
 }
 
 /// The axis of a name.
