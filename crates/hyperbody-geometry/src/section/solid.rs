@@ -140,7 +140,10 @@ impl Stand {
         let (normal, offset) = (frame.normal(), frame.offset());
         let (low, high) = (-piece.reach(-normal) - offset, piece.reach(normal) - offset);
         let slack = TOUCHING * (high - low + offset.abs());
-        if low.abs() <= slack {
+        // Half-spaces have no end.
+        if !slack.is_finite() {
+            Self::Across
+        } else if low.abs() <= slack {
             Self::Touches(slack)
         } else if high.abs() <= slack {
             Self::Touches(-slack)
