@@ -13,8 +13,8 @@ const RADIUS_LIMITS = [0.008, 0.05] as const;
 const BEAD = 1.8;
 /** They are seen so many times as far off the slice as ghosts: they are few and thin. */
 const FARTHER = 2;
-/** How much of a bead is seen through what covers it. */
-const THROUGH = 0.4;
+/** What is seen of a bead through what covers it: a dark point, as of a pin, so many times as thick, and so strong. */
+const PIN = { colour: "#0b1020", thick: 1.7, strength: 0.75 };
 const STEEL = "#ccd5ea";
 /** Numbers of a point: its place, and how far off the slice it is. */
 const POINT = 4;
@@ -46,11 +46,13 @@ export class JointLayer {
     });
   }
 
-  /** Beads that lie within bodies, as hinges do, shine through. */
+  /** Beads that lie within bodies, as hinges do, show through as pins. */
   private covered(): Mesh {
     const material = this.material(true, false);
     Object.assign(material, { depthFunc: GreaterDepth, depthWrite: false });
-    material.uniforms.strength.value = THROUGH;
+    material.uniforms.strength.value = PIN.strength;
+    material.uniforms.thick.value = PIN.thick;
+    for (const name of ["steel", "warm", "cool"]) material.uniforms[name].value = new Color(PIN.colour);
     const mesh = new Mesh(this.beads.geometry, material);
     mesh.frustumCulled = false;
     mesh.renderOrder = 1;
@@ -80,7 +82,7 @@ export class JointLayer {
       defines: { ...(bead && { BEAD: 1 }), ...(flat && { FLAT: 1 }) },
       uniforms: {
         radius: this.radius, reach: this.reach, plane: this.plane,
-        strength: { value: 1 }, steel: { value: new Color(STEEL) }, warm: { value: new Color(WARM) }, cool: { value: new Color(COOL) },
+        strength: { value: 1 }, thick: { value: 1 }, steel: { value: new Color(STEEL) }, warm: { value: new Color(WARM) }, cool: { value: new Color(COOL) },
       },
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -128,7 +130,7 @@ class Instances {
 
 const VERTEX = /* glsl */ `
   attribute vec4 start;
-  uniform float radius; uniform vec4 plane;
+  uniform float radius, thick; uniform vec4 plane;
   varying vec3 n; varying float o;
   #ifdef BEAD
     void main() {
@@ -142,7 +144,7 @@ const VERTEX = /* glsl */ `
       vec3 around = side * position.x + cross(along, side) * position.z;
       vec4 point = mix(start, end, position.y + 0.5);
   #endif
-      vec3 place = point.xyz + radius * around;
+      vec3 place = point.xyz + radius * thick * around;
       o = point.w;
   #ifdef FLAT
       o += dot(plane.xyz, point.xyz) - plane.w;
