@@ -87,11 +87,18 @@ export class PointerInput {
     if (!main) return;
     this.second = { id, start: at, last: at, sense: null };
     // On a body the second finger pushes along w, so the body has to be held by now.
-    if (main.picked && main.act === "undecided") this.begin(main, false);
-    if (main.act === "pull") return;
+    const frozen = main.picked !== null && this.isFrozen(main.picked.body);
+    if (main.picked && !frozen && main.act === "undecided") this.begin(main, false);
+    if (main.act === "pull" && !frozen) return;
     // The ground, or something that nothing moves: two fingers move the camera.
     main.act = "pan";
     this.pinch = { distance: distance(main.last, at), middle: middle(main.last, at) };
+  }
+
+  /** Whether the panel shows a body as frozen: the list of bodies tells how it takes part when it is let go. */
+  private isFrozen(body: number): boolean {
+    const selected = this.playground.readout.value?.selected;
+    return selected?.body === body && selected.frozen;
   }
 
   private move(event: PointerEvent): void {
