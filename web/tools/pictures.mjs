@@ -14,7 +14,7 @@ const VIEW = { width: 960, height: 600 };
 const FREE = { x: 72, y: 74, width: 704, height: 440 };
 const PICTURE = { width: 320, height: 200 };
 /** Of avifenc, 0 (lossless) to 63. */
-const QUANTIZER = "36";
+const QUANTIZER = "46";
 /** When a scene shows what it is about, s of its time. */
 const USUAL_MOMENT = 1.6;
 const MOMENTS = {
