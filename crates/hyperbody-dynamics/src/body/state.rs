@@ -309,6 +309,7 @@ impl<const N: usize> Body<N> {
         self.velocity = Vector::ZERO;
         self.angular_velocity = Bivector::ZERO;
         self.angular_momentum = Bivector::ZERO;
+        (self.slow_time, self.strayed) = (0.0, (Vector::ZERO, Bivector::ZERO));
     }
 }
 

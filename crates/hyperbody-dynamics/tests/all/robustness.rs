@@ -359,6 +359,11 @@ fn a_joint_of_a_body_in_quarantine_bears_nothing() {
         world.step();
         assert_eq!(world.quarantined(), [bob]);
         assert_eq!(world.joint(rope).unwrap().force().norm(), 0.0);
+        let bytes = world.snapshot().to_bytes();
+        assert!(
+            hyperbody_dynamics::Snapshot::<4>::from_bytes(&bytes).is_ok(),
+            "what is in quarantine can be written and read"
+        );
     }
 }
 
