@@ -6,7 +6,7 @@ use hyperbody_math::{Pose, Vector, planes};
 
 use super::freedom::check_spring;
 use super::{Coupling, Freedom, Motor, Spring};
-use crate::vetting::{POSITION_LIMIT, in_bounds};
+use crate::vetting::POSITION_LIMIT;
 use crate::{BodyHandle, WorldError, WorldErrorKind};
 
 /// Everything needed to make a joint. Start from one of the named joints, or from [`JointDef::free`] and lock what must not
@@ -454,13 +454,16 @@ impl<const N: usize> JointDef<N> {
     }
 }
 
+/// Largest coordinate of an anchor, m: what lies within the bounds of positions, as seen from a turned frame at their other end.
+const ANCHOR_LIMIT: f64 = 10.0 * POSITION_LIMIT;
+
 /// That a frame is one, and near enough to do something.
 pub(crate) fn check_frame<const N: usize>(what: &str, frame: &Pose<N>) -> Result<(), WorldError> {
-    if in_bounds(frame.translation) && frame.rotation.matrix().is_finite() {
+    if frame.translation.max_abs() <= ANCHOR_LIMIT && frame.rotation.matrix().is_finite() {
         return Ok(());
     }
     Err(WorldError::bad_number(format!(
-        "{what} is {:?}; its coordinates must lie within ±{POSITION_LIMIT:e} m, and its axes must be finite",
+        "{what} is {:?}; its coordinates must lie within ±{ANCHOR_LIMIT:e} m, and its axes must be finite",
         frame.translation.0
     )))
 }

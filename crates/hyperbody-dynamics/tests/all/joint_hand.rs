@@ -141,6 +141,8 @@ fn wrong_hands_are_refused() {
     for def in [
         JointDef::mouse(body, nan, Vector::ZERO, 1.0),
         JointDef::mouse(body, Vector::ZERO, nan, 1.0),
+        JointDef::mouse(body, Vector::ZERO, Vector::unit(0) * 1e20, 1.0),
+        JointDef::mouse(body, Vector::unit(0) * 1e300, Vector::ZERO, 1.0),
         JointDef::mouse(body, Vector::ZERO, Vector::ZERO, -1.0),
         JointDef::mouse(body, Vector::ZERO, Vector::ZERO, f64::NAN),
         JointDef::mouse(body, Vector::ZERO, Vector::ZERO, 1.0).softness(0.0, 1.0),
