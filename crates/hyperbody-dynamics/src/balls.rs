@@ -4,11 +4,11 @@
 use hyperbody_collision::ContactPoint;
 use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_math::{Bivector, Pose, Vector};
+use hyperbody_math::{Pose, Vector};
 
 use crate::body::Body;
 use crate::narrow_phase::{AFTER_IMPACT, Update, meet_first};
-use crate::pairs::{Pair, PairRole};
+use crate::pairs::{Pair, PairRole, Touch};
 use crate::wandering::share_of_b;
 use crate::world::Collider;
 
@@ -46,32 +46,37 @@ impl<const N: usize> Update<'_, N> {
         if !(distance > 0.0 && distance.is_finite()) {
             return false;
         }
-        pair.round = true;
-        pair.search.a_from_b = None;
+        if !pair.round {
+            pair.round = true;
+            pair.search.a_from_b = None;
+        }
         let gap = distance - (radius_a + radius_b);
         let far = gap > self.margin + AFTER_IMPACT * closing;
         if far || gap > self.margin && !self.balls_meet(between, body_a, body_b, radius_a + radius_b) {
             // Both may come as far as this before there is a contact to make.
             pair.holds_until = if far { way + (gap - self.margin) } else { f64::NEG_INFINITY };
             if let Some(contact) = &mut pair.contact {
-                contact.manifold.clear();
-                contact.friction_impulse = Vector::ZERO;
-                contact.twist_impulse = Bivector::ZERO;
+                contact.clear();
             }
             pair.summarize();
             return true;
         }
         let normal = between * (1.0 / distance);
-        let contact = pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b))));
+        let contact = pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b), 1)));
         let position = a.world_from_collider.translation + normal * (radius_a + 0.5 * gap);
-        if contact.manifold.is_empty() {
-            contact.normal_impulses[0] = 0.0;
-            contact.share_of_b = share_of_b(a, b, normal);
+        let point = ContactPoint { position, separation: gap, id: 0 };
+        contact.normal = normal;
+        match contact.touches.as_mut_slice() {
+            [touch] => {
+                touch.point = point;
+                touch.step_impulse = 0.0;
+            }
+            _ => {
+                contact.touches.clear();
+                contact.touches.push(Touch::new(point));
+                contact.share_of_b = share_of_b(a, b, normal);
+            }
         }
-        contact.step_impulses[0] = 0.0;
-        contact.manifold.clear();
-        contact.manifold.normal = normal;
-        contact.manifold.push(ContactPoint { position, separation: gap, id: 0 });
         pair.holds_until = f64::NEG_INFINITY;
         pair.summarize();
         true

@@ -9,6 +9,7 @@ use hyperbody_math::{Bivector, Vector};
 
 use crate::body::Body;
 use crate::counting::Counting;
+use crate::pairs::Touch;
 use crate::{BodyHandle, BodyKind, JointHandle, World};
 
 /// What a touch did in the last step.
@@ -211,28 +212,29 @@ impl<const N: usize> World<N> {
                 self.events.noticed.extend(self.noticed_by(pair.body_b, pair.body_a));
             }
             let Some(contact) = pair.contact.as_deref().filter(|_| pair.points > 0) else { continue };
-            let points = contact.manifold.points().iter().zip(&contact.step_impulses);
-            let touches = points.clone().any(|(point, &impulse)| impulse > 0.0 || point.separation <= 0.0);
+            let touches = |touch: &Touch<N>| touch.step_impulse > 0.0 || touch.point.separation <= 0.0;
+            let touching = contact.touches.iter().any(touches);
             let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { continue };
-            if !touches || !(a.is_moving() || b.is_moving()) {
+            if !touching || !(a.is_moving() || b.is_moving()) {
                 continue;
             }
             let handles = (self.bodies.handle_at(pair.body_a), self.bodies.handle_at(pair.body_b));
             let (Some(handle_a), Some(handle_b)) = handles else { continue };
             let (mut impulse, mut point) = (0.0, Vector::ZERO);
-            for (place, &part) in points {
-                impulse += f64::from(part);
-                point += place.position * f64::from(part);
+            for touch in &contact.touches {
+                let part = f64::from(touch.step_impulse);
+                impulse += part;
+                point += touch.point.position * part;
             }
             let pressed = impulse > 0.0;
-            let first = contact.manifold.points().first().map_or(Vector::ZERO, |point| point.position);
+            let first = contact.touches.first().map_or(Vector::ZERO, |touch| touch.point.position);
             let swap = handle_b.index < handle_a.index;
             found.push(ContactEvent {
                 bodies: if swap { (handle_b, handle_a) } else { (handle_a, handle_b) },
                 phase: ContactPhase::Begin,
                 impulse,
                 point: if pressed { point * (1.0 / impulse) } else { first },
-                normal: if swap { -contact.manifold.normal } else { contact.manifold.normal },
+                normal: if swap { -contact.normal } else { contact.normal },
             });
         }
         // Pieces of the same two bodies keep the order of their pairs. What is sorted is small beside the events.

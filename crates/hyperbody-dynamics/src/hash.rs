@@ -58,9 +58,9 @@ impl<const N: usize> World<N> {
                 hasher.word(u64::from(pair.overlaps) | (pair.passage as u64) << 1);
             }
             let Some(contact) = &pair.contact else { continue };
-            for (point, impulse) in contact.manifold.points().iter().zip(&contact.normal_impulses) {
-                hasher.number(point.separation);
-                hasher.word(u64::from(impulse.to_bits()));
+            for touch in &contact.touches {
+                hasher.number(touch.point.separation);
+                hasher.word(u64::from(touch.normal_impulse.to_bits()));
             }
         }
         for joint in self.joints.values() {

@@ -178,7 +178,7 @@ impl<const N: usize> World<N> {
         let mut held = std::mem::take(&mut self.islands.held);
         held.clear();
         held.resize(self.bodies.slot_count(), false);
-        let presses = |contact: &Contact<N>| contact.step_impulses.iter().any(|&impulse| impulse > 0.0);
+        let presses = |contact: &Contact<N>| contact.touches.iter().any(|touch| touch.step_impulse > 0.0);
         let pressed = self.pairs.iter().filter(|pair| pair.contact.as_deref().is_some_and(presses));
         let contacts = pressed.map(|pair| (pair.body_a, pair.body_b, true, true));
         // A slack rope holds nothing.

@@ -24,6 +24,7 @@
 //!
 //! Data goes one way through the step; `step.rs` is its list of stages.
 
+mod ahead;
 mod balls;
 pub mod body;
 mod broad_phase;

@@ -1,6 +1,6 @@
 //! Where pairs touch: manifolds, and the impulses that carry over to them.
 
-use hyperbody_collision::{MAX_POINTS, Manifold, PairCache, Scratch, collide};
+use hyperbody_collision::{MAX_POINTS, Manifold, PairCache, Scratch, collide, max_points};
 use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::{Carried, Contact, Pair, PairRole};
+use crate::pairs::{Contact, Pair, PairRole, Touch, fetch_contacts};
 use crate::rules::Hook;
 use crate::seams::{SLIDES, is_suspect};
 use crate::wandering::share_of_b;
@@ -32,15 +32,14 @@ impl<const N: usize> ContactRef<'_, N> {
     /// Unit normal in the world, from a to b.
     #[must_use]
     pub fn normal(&self) -> Vector<N> {
-        self.pair.manifold().normal
+        self.pair.normal()
     }
 
     /// Points of contact: position in the world (m), separation along the normal (m, negative is overlap), and normal
     /// impulse over the last step (N·s).
     pub fn points(&self) -> impl Iterator<Item = (Vector<N>, f64, f64)> + '_ {
-        let contact = self.pair.contact.iter();
-        let points = contact.flat_map(|contact| contact.manifold.points().iter().zip(&contact.step_impulses));
-        points.map(|(point, impulse)| (point.position, point.separation, f64::from(*impulse)))
+        let touches = self.pair.touches().iter();
+        touches.map(|touch| (touch.point.position, touch.point.separation, f64::from(touch.step_impulse)))
     }
 }
 
@@ -60,7 +59,7 @@ impl<const N: usize> World<N> {
         match &self.pool {
             None => {
                 if let Some(scratch) = self.scratch.first_mut() {
-                    slots.iter_mut().flatten().for_each(|pair| update.pair(pair, scratch));
+                    update.pairs(slots, scratch);
                 }
             }
             Some(pool) => {
@@ -68,7 +67,7 @@ impl<const N: usize> World<N> {
                 let chunk = slots.len().div_ceil(self.scratch.len()).max(1);
                 pool.install(|| {
                     slots.par_chunks_mut(chunk).zip(self.scratch.par_iter_mut()).for_each(|(chunk, scratch)| {
-                        chunk.iter_mut().flatten().for_each(|pair| update.pair(pair, scratch));
+                        update.pairs(chunk, scratch);
                     });
                 });
             }
@@ -145,6 +144,16 @@ pub(crate) struct Update<'a, const N: usize> {
 }
 
 impl<const N: usize> Update<'_, N> {
+    /// Brings the pairs of some slots up to date.
+    fn pairs(&self, slots: &mut [Option<Pair<N>>], scratch: &mut Scratch<N>) {
+        for slot in 0..slots.len() {
+            fetch_contacts(slots, slot);
+            if let Some(pair) = &mut slots[slot] {
+                self.pair(pair, scratch);
+            }
+        }
+    }
+
     /// Brings a pair up to date, by the cheapest of three ways that does: carrying along what was found before.
     fn pair(&self, pair: &mut Pair<N>, scratch: &mut Scratch<N>) {
         let (a, b) = (&self.motions[pair.collider_a as usize], &self.motions[pair.collider_b as usize]);
@@ -224,15 +233,15 @@ impl<const N: usize> Update<'_, N> {
         self.drop_unreached(&mut manifold, (a, body_a), (b, body_b), scratch);
         if pair.role == PairRole::Ruled {
             if !manifold.is_empty() {
-                pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b))));
+                pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b), max_points(N))));
             }
             self.judge(pair, &mut manifold, (a, body_a), (b, body_b));
         }
         let empty = manifold.points().is_empty();
         if !(empty && pair.contact.is_none()) {
-            let contact = pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b))));
+            let contact =
+                pair.contact.get_or_insert_with(|| Box::new(meet_first((a, body_a), (b, body_b), max_points(N))));
             carry_over(contact, &manifold, self.margin);
-            contact.manifold = manifold;
             if !empty && body_a.kind == BodyKind::Dynamic && body_b.kind == BodyKind::Dynamic {
                 contact.share_of_b = share_of_b(a, b, manifold.normal);
             }
@@ -252,11 +261,11 @@ impl<const N: usize> Update<'_, N> {
             return;
         };
         let (world_from_a, world_from_b) = (&a.world_from_collider, &b.world_from_collider);
-        let normal = world_from_a.rotation.rotate(contact.carried.normal_in_a);
-        contact.manifold.normal = normal;
-        for (point, anchor) in contact.manifold.points_mut().iter_mut().zip(&contact.carried.anchors) {
-            let on_a = world_from_a.transform_point(anchor.0);
-            let on_b = world_from_b.transform_point(anchor.1);
+        let normal = world_from_a.rotation.rotate(contact.normal_in_a);
+        contact.normal = normal;
+        for Touch { point, anchors, .. } in &mut contact.touches {
+            let on_a = world_from_a.transform_point(anchors.0);
+            let on_b = world_from_b.transform_point(anchors.1);
             point.position = (on_a + on_b) * 0.5;
             point.separation = (on_b - on_a).dot(normal);
         }
@@ -375,51 +384,51 @@ pub(crate) fn moved<const N: usize>(then: &Pose<N>, now: &Pose<N>, reach: f64) -
     now.translation.distance(then.translation) + turned_sq.sqrt() * reach
 }
 
-/// What two colliders remember that touch for the first time.
+/// What two colliders remember that touch for the first time, in at most so many points.
 pub(crate) fn meet_first<const N: usize>(
     (a, body_a): (&Collider<N>, &Body<N>),
     (b, body_b): (&Collider<N>, &Body<N>),
+    most_points: usize,
 ) -> Contact<N> {
     Contact {
-        radii: (a.rounding(), b.rounding()),
+        touches: Vec::with_capacity(most_points),
+        normal: Vector::ZERO,
         friction: body_a.material.combined_friction(&body_b.material),
         restitution: body_a.material.combined_restitution(&body_b.material),
         resistance: body_a.material.combined_resistance(&body_b.material),
         surface: Vector::ZERO,
         share_of_b: 0.5,
-        manifold: Manifold::default(),
-        normal_impulses: [0.0; MAX_POINTS],
-        step_impulses: [0.0; MAX_POINTS],
         friction_impulse: Vector::ZERO,
         twist_impulse: Bivector::ZERO,
-        carried: Carried { normal_in_a: Vector::ZERO, anchors: [(Vector::ZERO, Vector::ZERO); MAX_POINTS] },
+        normal_in_a: Vector::ZERO,
+        radii: (a.rounding(), b.rounding()),
     }
 }
 
 /// Notes the manifold in the frames of its colliders.
 fn record<const N: usize>(contact: &mut Contact<N>, world_from_a: &Pose<N>, world_from_b: &Pose<N>) {
-    let Contact { manifold, carried, .. } = contact;
-    for (anchor, point) in carried.anchors.iter_mut().zip(manifold.points()) {
-        let half_gap = manifold.normal * (0.5 * point.separation);
-        *anchor = (
+    let normal = contact.normal;
+    for Touch { point, anchors, .. } in &mut contact.touches {
+        let half_gap = normal * (0.5 * point.separation);
+        *anchors = (
             world_from_a.inverse_transform_point(point.position - half_gap),
             world_from_b.inverse_transform_point(point.position + half_gap),
         );
     }
-    carried.normal_in_a = world_from_a.rotation.inverse_rotate(manifold.normal);
+    contact.normal_in_a = world_from_a.rotation.inverse_rotate(normal);
 }
 
-/// Gives the points of a new manifold the impulses of the old points that they continue: those of the same id, else the
+/// Makes a new manifold that of a contact. Its points get the impulses of the old points that they continue: those of the same id, else the
 /// nearest one that is left within `reach`. Impulses of points that ended are dropped.
 fn carry_over<const N: usize>(contact: &mut Contact<N>, new: &Manifold<N>, reach: f64) {
-    let old = contact.manifold.points();
+    let old = contact.touches.as_slice();
     let mut impulses = [0.0; MAX_POINTS];
     let mut taken = [false; MAX_POINTS];
     let mut matched = [false; MAX_POINTS];
     for (k, point) in new.points().iter().enumerate() {
-        let same = old.iter().enumerate().position(|(o, other)| other.id == point.id && !taken[o]);
+        let same = old.iter().enumerate().position(|(o, other)| other.point.id == point.id && !taken[o]);
         if let Some(o) = same {
-            impulses[k] = contact.normal_impulses[o];
+            impulses[k] = old[o].normal_impulse;
             taken[o] = true;
             matched[k] = true;
         }
@@ -428,14 +437,14 @@ fn carry_over<const N: usize>(contact: &mut Contact<N>, new: &Manifold<N>, reach
         let mut nearest = None;
         let mut least = reach * reach;
         for (o, other) in old.iter().enumerate().filter(|(o, _)| !taken[*o]) {
-            let distance_sq = (other.position - point.position).norm_sq();
+            let distance_sq = (other.point.position - point.position).norm_sq();
             if distance_sq < least {
                 least = distance_sq;
                 nearest = Some(o);
             }
         }
         if let Some(o) = nearest {
-            impulses[k] = contact.normal_impulses[o];
+            impulses[k] = old[o].normal_impulse;
             taken[o] = true;
         }
     }
@@ -443,6 +452,8 @@ fn carry_over<const N: usize>(contact: &mut Contact<N>, new: &Manifold<N>, reach
         contact.friction_impulse = Vector::ZERO;
         contact.twist_impulse = Bivector::ZERO;
     }
-    contact.normal_impulses = impulses;
-    contact.step_impulses = [0.0; MAX_POINTS];
+    contact.normal = new.normal;
+    contact.touches.clear();
+    let touches = new.points().iter().zip(impulses);
+    contact.touches.extend(touches.map(|(point, normal_impulse)| Touch { normal_impulse, ..Touch::new(*point) }));
 }

@@ -5,10 +5,11 @@
 
 use std::collections::BTreeMap;
 
-use hyperbody_collision::{MAX_POINTS, Manifold, PairCache};
+use hyperbody_collision::{ContactPoint, PairCache};
 use hyperbody_math::{Bivector, Pose, Vector};
 
 use crate::Material;
+use crate::ahead::{IS_HEARD, fetch, fetch_all};
 use crate::body::Body;
 
 /// What pairs of numbers are sorted by: the first, then the second. One function for worlds of all dimensions, so that sorting
@@ -104,10 +105,11 @@ pub(crate) struct Pair<const N: usize> {
 }
 
 impl<const N: usize> Pair<N> {
-    /// What it takes beside itself, bytes.
+    /// What a copy of it takes beside itself, bytes.
     pub(crate) fn memory(&self) -> usize {
         let search = size_of::<Search<N>>();
-        search + self.contact.as_ref().map_or(0, |_| size_of::<Contact<N>>())
+        let contact = |contact: &Contact<N>| size_of_val(contact) + size_of_val(contact.touches.as_slice());
+        search + self.contact.as_deref().map_or(0, contact)
     }
 }
 
@@ -120,32 +122,61 @@ pub(crate) struct Search<const N: usize> {
     pub(crate) cache: PairCache<N>,
 }
 
-/// What two colliders that touch remember.
+/// What two colliders that touch remember: the manifold of the last narrow phase, and how it is carried on. First what every
+/// step asks for.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub(crate) struct Contact<const N: usize> {
-    /// Radii by which the colliders' cores are rounded, m.
-    pub(crate) radii: (f64, f64),
+    /// Where they touch. Has room for as many as there can be, so that no step asks for memory, and for no more, for large piles
+    /// wait for memory above all.
+    pub(crate) touches: Vec<Touch<N>>,
+    /// Unit vector from a to b in the world; zero while there are no points.
+    pub(crate) normal: Vector<N>,
     /// Of both surfaces, by their rules.
     pub(crate) friction: f64,
     pub(crate) restitution: f64,
-    /// Resistance to rolling and to twisting, m.
-    pub(crate) resistance: (f64, f64),
+    /// Warm start: friction impulse on b over one substep, world frame, N·s.
+    pub(crate) friction_impulse: Vector<N>,
     /// How b's surface runs against a's, beside what the bodies say, world axes, m/s: asked for by the contact hook.
     pub(crate) surface: Vector<N>,
     /// Which part of what moving on adds to the angular momentum b takes back; see `wandering`.
     pub(crate) share_of_b: f64,
-    /// The touching points of the last narrow phase.
-    pub(crate) manifold: Manifold<N>,
-    /// Warm start: normal impulse of each point over one substep, N·s.
-    pub(crate) normal_impulses: [f32; MAX_POINTS],
-    /// Normal impulse of each point over the last step, N·s.
-    pub(crate) step_impulses: [f32; MAX_POINTS],
-    /// Warm start: friction impulse on b over one substep, world frame, N·s.
-    pub(crate) friction_impulse: Vector<N>,
+    /// The normal in the frame of a, which carries it along.
+    pub(crate) normal_in_a: Vector<N>,
     /// Warm start: twisting friction impulse on b over one substep, and that of resistance to rolling, world frame, N·m·s.
     pub(crate) twist_impulse: Bivector<N>,
-    /// The manifold as the bodies carry it along.
-    pub(crate) carried: Carried<N>,
+    /// Resistance to rolling and to twisting, m.
+    pub(crate) resistance: (f64, f64),
+    /// Radii by which the colliders' cores are rounded, m.
+    pub(crate) radii: (f64, f64),
+}
+
+/// One point of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch<const N: usize> {
+    pub(crate) point: ContactPoint<N>,
+    /// Warm start: normal impulse over one substep, N·s.
+    pub(crate) normal_impulse: f32,
+    /// Normal impulse over the last step, N·s.
+    pub(crate) step_impulse: f32,
+    /// The two surfaces' points, each in its collider's frame: from them the point is made anew while the two hardly move.
+    pub(crate) anchors: (Vector<N>, Vector<N>),
+}
+
+impl<const N: usize> Touch<N> {
+    pub(crate) fn new(point: ContactPoint<N>) -> Self {
+        Self { point, normal_impulse: 0.0, step_impulse: 0.0, anchors: (Vector::ZERO, Vector::ZERO) }
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    /// Forgets points, normal and the impulses of friction.
+    pub(crate) fn clear(&mut self) {
+        self.touches.clear();
+        self.normal = Vector::ZERO;
+        self.friction_impulse = Vector::ZERO;
+        self.twist_impulse = Bivector::ZERO;
+    }
 }
 
 impl<const N: usize> Pair<N> {
@@ -187,32 +218,44 @@ impl<const N: usize> Pair<N> {
         *self = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.role, surface);
     }
 
-    /// The touching points, with their normal; empty where the two have not met.
-    pub(crate) fn manifold(&self) -> &Manifold<N> {
-        self.contact.as_ref().map_or(const { &Manifold::EMPTY }, |contact| &contact.manifold)
+    /// The touching points; none where the two have not met.
+    pub(crate) fn touches(&self) -> &[Touch<N>] {
+        self.contact.as_ref().map_or(&[], |contact| &contact.touches)
+    }
+
+    /// Unit vector from a to b in the world; zero while there are no points.
+    pub(crate) fn normal(&self) -> Vector<N> {
+        self.contact.as_ref().map_or(Vector::ZERO, |contact| contact.normal)
     }
 
     /// Notes what the manifold holds.
     pub(crate) fn summarize(&mut self) {
         let (mut deepest, mut touching) = (0.0_f64, 0);
-        for point in self.manifold().points() {
+        for Touch { point, .. } in self.touches() {
             if point.separation <= 0.0 {
                 deepest = deepest.max(-point.separation);
                 touching += 1;
             }
         }
         #[expect(clippy::cast_possible_truncation, reason = "at most MAX_POINTS")]
-        let points = self.manifold().points().len() as u8;
+        let points = self.touches().len() as u8;
         (self.deepest, self.touching, self.points) = (deepest, touching, points);
     }
 }
 
-/// A manifold in the frames of its two colliders, from which it can be made anew while they hardly move.
-#[derive(Clone, Debug)]
-pub(crate) struct Carried<const N: usize> {
-    pub(crate) normal_in_a: Vector<N>,
-    /// The two surfaces' points of each contact point.
-    pub(crate) anchors: [(Vector<N>, Vector<N>); MAX_POINTS],
+/// Asks for what the pairs after `slot` remember, where slots are walked in order; see [`crate::ahead`].
+#[inline]
+pub(crate) fn fetch_contacts<const N: usize>(slots: &[Option<Pair<N>>], slot: usize) {
+    if !IS_HEARD {
+        return;
+    }
+    let contact = |slot: usize| slots.get(slot)?.as_ref().filter(|pair| pair.points > 0)?.contact.as_deref();
+    if let Some(contact) = contact(slot + 16) {
+        fetch(contact, std::mem::offset_of!(Contact<N>, twist_impulse));
+    }
+    if let Some(contact) = contact(slot + 8) {
+        fetch_all(&contact.touches);
+    }
 }
 
 /// All pairs of a world.
@@ -294,7 +337,7 @@ mod tests {
     use crate::solver::bodies::Sizes;
     use crate::world::Collider;
 
-    fn sizes<const N: usize>() -> [usize; 6] {
+    fn sizes<const N: usize>() -> [usize; 7] {
         let solver = size_of::<crate::solver::bodies::SolverBody<N>>() + Sizes::<N>::STATE * size_of::<f32>();
         [
             size_of::<Body<N>>(),
@@ -303,19 +346,20 @@ mod tests {
             size_of::<Option<Pair<N>>>(),
             size_of::<Search<N>>(),
             size_of::<Contact<N>>(),
+            size_of::<Touch<N>>(),
         ]
     }
 
-    /// What docs/performance.md states, in bytes: body, collider, body in the solver, pair, search, contact.
+    /// What docs/performance.md states, in bytes: body, collider, body in the solver, pair, search, contact, a point of it.
     #[test]
     #[cfg(target_pointer_width = "64")]
     fn bodies_and_contacts_take_the_stated_memory() {
         let stated = [
-            [672, 208, 344, 64, 224, 1312],
-            [1080, 336, 528, 64, 280, 1768],
-            [1616, 496, 760, 64, 352, 2240],
-            [2280, 688, 1040, 64, 440, 2728],
-            [3072, 912, 1400, 64, 544, 3232],
+            [672, 208, 344, 64, 224, 176, 72],
+            [1080, 336, 528, 64, 280, 248, 96],
+            [1616, 496, 760, 64, 352, 336, 120],
+            [2280, 688, 1040, 64, 440, 440, 144],
+            [3072, 912, 1400, 64, 544, 560, 168],
         ];
         assert_eq!([sizes::<2>(), sizes::<3>(), sizes::<4>(), sizes::<5>(), sizes::<6>()], stated);
     }

@@ -19,10 +19,9 @@
 //! Others go by adjacency: internal edges are found when a mesh is built (P. Terdiman, 2012), or contacts are sorted by depth and
 //! features used up (Jolt). Both are for triangles of one mesh; here the floor may be made of bodies, too.
 
-use hyperbody_collision::MAX_POINTS;
 use hyperbody_geometry::Core;
 use hyperbody_geometry::shape::Piece;
-use hyperbody_math::{Bivector, Vector};
+use hyperbody_math::Vector;
 
 use crate::body::Body;
 use crate::narrow_phase::velocity_near;
@@ -55,8 +54,9 @@ const UPRIGHT: f64 = 0.95;
 pub(crate) struct Seams<const N: usize> {
     /// Slots of pairs that may hold ghosts.
     pub(crate) suspects: Vec<u32>,
-    /// Bodies of the suspects, ascending.
+    /// Dynamic bodies of the suspects, and by slot whether a body is one of them.
     bodies: Vec<u32>,
+    marked: Vec<bool>,
     /// Body and pair of all contacts of those, ascending.
     contacts: Vec<(u32, u32)>,
     /// Pair, and the normal that it gets, from a to b; none for those that are dropped.
@@ -72,11 +72,8 @@ pub(crate) fn is_suspect<const N: usize>(pair: &Pair<N>, a: &Body<N>, b: &Body<N
 
 /// Speed at which the two come together at the first point of their contact, m/s.
 fn approach<const N: usize>(pair: &Pair<N>, a: &Body<N>, b: &Body<N>) -> f64 {
-    let manifold = pair.manifold();
-    manifold
-        .points()
-        .first()
-        .map_or(0.0, |point| (velocity_near(a, point.position) - velocity_near(b, point.position)).dot(manifold.normal))
+    let speed_at = |place| (velocity_near(a, place) - velocity_near(b, place)).dot(pair.normal());
+    pair.touches().first().map_or(0.0, |touch| speed_at(touch.point.position))
 }
 
 impl<const N: usize> World<N> {
@@ -100,14 +97,15 @@ impl<const N: usize> World<N> {
         for pair in seams.suspects.iter().filter_map(|&slot| self.pairs.get(slot)) {
             seams.bodies.extend([pair.body_a, pair.body_b]);
         }
-        seams.bodies.sort_unstable();
-        seams.bodies.dedup();
         seams.bodies.retain(|&body| self.bodies.at(body).is_some_and(|body| body.kind == BodyKind::Dynamic));
+        seams.marked.clear();
+        seams.marked.resize(self.bodies.slot_count(), false);
+        seams.bodies.iter().for_each(|&body| seams.marked[body as usize] = true);
         seams.contacts.clear();
         for (slot, pair) in self.pairs.slots().iter().enumerate() {
             let Some(pair) = pair.as_ref().filter(|pair| pair.points > 0) else { continue };
             for body in [pair.body_a, pair.body_b] {
-                if seams.bodies.binary_search(&body).is_ok() {
+                if seams.marked[body as usize] {
                     seams.contacts.push((body, slot as u32));
                 }
             }
@@ -191,12 +189,11 @@ impl<const N: usize> World<N> {
     /// A contact as its body sees it.
     fn hold(&self, body: u32, slot: u32) -> Option<Hold<'_, N>> {
         let pair = self.pairs.get(slot)?;
-        let manifold = pair.manifold();
         let (a, b) =
             (self.colliders[pair.collider_a as usize].as_ref()?, self.colliders[pair.collider_b as usize].as_ref()?);
-        let (own, partner, normal) =
-            if pair.body_a == body { (a, b, -manifold.normal) } else { (b, a, manifold.normal) };
-        let deepest = manifold.points().iter().min_by(|a, b| a.separation.total_cmp(&b.separation))?;
+        let (own, partner, normal) = if pair.body_a == body { (a, b, -pair.normal()) } else { (b, a, pair.normal()) };
+        let points = pair.touches().iter().map(|touch| &touch.point);
+        let deepest = points.min_by(|a, b| a.separation.total_cmp(&b.separation))?;
         Some(Hold { own, partner, normal, point: deepest.position, separation: deepest.separation })
     }
 
@@ -208,12 +205,9 @@ impl<const N: usize> World<N> {
         pair.holds_until = f64::NEG_INFINITY;
         let Some(contact) = &mut pair.contact else { return };
         match normal {
-            Some(normal) => contact.manifold.normal = normal,
+            Some(normal) => contact.normal = normal,
             None => {
-                contact.manifold.clear();
-                contact.friction_impulse = Vector::ZERO;
-                contact.twist_impulse = Bivector::ZERO;
-                contact.step_impulses = [0.0; MAX_POINTS];
+                contact.clear();
                 pair.summarize();
             }
         }

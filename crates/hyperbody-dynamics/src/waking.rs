@@ -4,7 +4,7 @@
 
 use crate::body::Body;
 use crate::narrow_phase::velocity_near;
-use crate::pairs::{Pair, PairRole, Pairs};
+use crate::pairs::{Pair, PairRole, Pairs, Touch};
 use crate::{BodyKind, World};
 
 impl<const N: usize> World<N> {
@@ -106,10 +106,10 @@ impl<const N: usize> World<N> {
     /// Whether some point of a pair touches, or will before the step ends: the solver would press there.
     fn touches_within_step(&self, pair: &Pair<N>) -> bool {
         let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return false };
-        let manifold = pair.manifold();
-        manifold.points().iter().any(|point| {
+        let normal = pair.normal();
+        pair.touches().iter().any(|Touch { point, .. }| {
             let approach = velocity_near(a, point.position) - velocity_near(b, point.position);
-            let closing = approach.dot(manifold.normal);
+            let closing = approach.dot(normal);
             point.separation <= self.tuning.slop + closing.max(0.0) * self.dt
         })
     }

@@ -11,14 +11,15 @@ use crate::{BodyDef, BodyKind, Groups, Material, WorldError, error::WorldErrorKi
 
 /// Second moments of a body in its principal frame.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub(crate) struct Inertia<const N: usize> {
-    /// The attitude of the principal frame in the body's frame.
-    pub(crate) body_from_principal: Rotation<N>,
-    /// J_i, kg·m²; plane (i, j) has the moment J_i + J_j.
-    pub(crate) moments: Vector<N>,
     /// The moment of every plane where they are all equal (cubes, regular polytopes, balls; everything in 2D): then
     /// angular momentum and velocity are parallel and the principal frame does not matter.
     pub(crate) isotropic: Option<f64>,
+    /// J_i, kg·m²; plane (i, j) has the moment J_i + J_j.
+    pub(crate) moments: Vector<N>,
+    /// The attitude of the principal frame in the body's frame.
+    pub(crate) body_from_principal: Rotation<N>,
 }
 
 /// Relative difference of principal moments below which a body counts as isotropic: rounding in second moments of
@@ -73,81 +74,79 @@ impl<const N: usize> Inertia<N> {
     }
 }
 
-/// A body of a world.
+/// A body of a world: first what its pairs ask for at every step, then what moving it on takes, then the rest. Of a large pile
+/// each line of cache that is asked for in vain is waited for.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub(crate) struct Body<const N: usize> {
     pub(crate) kind: BodyKind,
+    pub(crate) sensor: bool,
+    /// Whether it is one ball about its centre of mass, whose surface stays as it is when it turns.
+    pub(crate) is_ball: bool,
+    /// Its state turned non-finite; it stays where it last was, out of the simulation.
+    pub(crate) quarantined: bool,
+    /// The sleeping island that it belongs to.
+    pub(crate) asleep_in: Option<u32>,
+    /// Row of this step's solver, 0 for bodies that no impulse moves.
+    pub(crate) solver_index: u32,
+    /// Largest distance of a point of the body from its centre of mass, m: turns spin into speed.
+    pub(crate) radius: f64,
+    /// Of the centre of mass, m/s.
+    pub(crate) velocity: Vector<N>,
+    /// Centre of mass in the world, m.
+    pub(crate) centre: Vector<N>,
+    /// World frame, rad/s. Of dynamic bodies it follows from the momentum and the attitude.
+    pub(crate) angular_velocity: Bivector<N>,
+
+    /// Attitude.
+    pub(crate) rotation: Rotation<N>,
+    /// Centre of mass in the body's frame, m.
+    pub(crate) centre_in_body: Vector<N>,
+    /// About the centre of mass, world frame, kg·m²/s. Zero unless dynamic.
+    pub(crate) angular_momentum: Bivector<N>,
+    /// kg; zero unless dynamic.
+    pub(crate) mass: f64,
+    /// 1/kg; zero unless dynamic.
+    pub(crate) inverse_mass: f64,
+    pub(crate) gravity_scale: f64,
+    pub(crate) linear_damping: f64,
+    pub(crate) angular_damping: f64,
+    /// Least radius of a core of its pieces, m: going farther in a step, it might pass through something.
+    pub(crate) core_radius: f64,
+    /// How long it has been slow, s.
+    pub(crate) slow_time: f64,
+    /// How its surface runs along it, as a conveyor's does, body frame, m/s.
+    pub(crate) surface_velocity: Vector<N>,
+    /// Pushes of the user until the end of the next step, world frame, N and N·m.
+    pub(crate) force: Vector<N>,
+    pub(crate) torque: Bivector<N>,
+    /// How far it has gone (m) and turned (rad) while it was slow.
+    pub(crate) strayed: (Vector<N>, Bivector<N>),
+    /// Pushes that go on from step to step, world frame, N and N·m.
+    pub(crate) steady_force: Vector<N>,
+    pub(crate) steady_torque: Bivector<N>,
+    /// Of dynamic bodies only.
+    pub(crate) inertia: Inertia<N>,
+    /// Whether pushes that go on have been added for the running step.
+    pub(crate) pushed: bool,
+    pub(crate) can_sleep: bool,
+    /// Of kinematic bodies: whether it was led somewhere in the last step.
+    pub(crate) arrived: bool,
+    /// Whom it meets, or how, was changed since the last step.
+    pub(crate) refilter: bool,
+    pub(crate) contact_hook: bool,
+    pub(crate) groups: Groups,
+
     pub(crate) shape: Shape<N>,
     pub(crate) material: Material,
     /// Slots of its colliders, one for each convex piece.
     pub(crate) colliders: Vec<u32>,
     /// Slots of its joints, ascending.
     pub(crate) joints: Vec<u32>,
-
-    /// kg; zero unless dynamic.
-    pub(crate) mass: f64,
-    /// 1/kg; zero unless dynamic.
-    pub(crate) inverse_mass: f64,
-    /// Of dynamic bodies only.
-    pub(crate) inertia: Inertia<N>,
-    /// Centre of mass in the body's frame, m.
-    pub(crate) centre_in_body: Vector<N>,
-    /// Largest distance of a point of the body from its centre of mass, m: turns spin into speed.
-    pub(crate) radius: f64,
-    /// Whether it is one ball about its centre of mass, whose surface stays as it is when it turns.
-    pub(crate) is_ball: bool,
-    /// Least radius of a core of its pieces, m: going farther in a step, it might pass through something.
-    pub(crate) core_radius: f64,
-
-    /// Centre of mass in the world, m.
-    pub(crate) centre: Vector<N>,
-    /// Attitude.
-    pub(crate) rotation: Rotation<N>,
-    /// Of the centre of mass, m/s.
-    pub(crate) velocity: Vector<N>,
-    /// World frame, rad/s. Of dynamic bodies it follows from the momentum and the attitude.
-    pub(crate) angular_velocity: Bivector<N>,
-    /// About the centre of mass, world frame, kg·m²/s. Zero unless dynamic.
-    pub(crate) angular_momentum: Bivector<N>,
-
-    /// Pushes of the user until the end of the next step, world frame, N and N·m.
-    pub(crate) force: Vector<N>,
-    pub(crate) torque: Bivector<N>,
-    /// Whether those that go on have been added for the running step.
-    pub(crate) pushed: bool,
-
-    /// Pushes that go on from step to step, world frame, N and N·m.
-    pub(crate) steady_force: Vector<N>,
-    pub(crate) steady_torque: Bivector<N>,
-    /// How its surface runs along it, as a conveyor's does, body frame, m/s.
-    pub(crate) surface_velocity: Vector<N>,
-    /// Of kinematic bodies: where it is led in the next step, and whether it was in the last one.
+    /// Of kinematic bodies: where it is led in the next step.
     pub(crate) led_to: crate::steering::Target<N>,
-    pub(crate) arrived: bool,
-
-    pub(crate) gravity_scale: f64,
-    pub(crate) linear_damping: f64,
-    pub(crate) angular_damping: f64,
-
-    pub(crate) groups: Groups,
-    pub(crate) sensor: bool,
     /// Unit, body frame: the side that holds, if it is one-way.
     pub(crate) one_way: Option<Vector<N>>,
-    pub(crate) contact_hook: bool,
-    /// Whom it meets, or how, was changed since the last step.
-    pub(crate) refilter: bool,
-
-    pub(crate) can_sleep: bool,
-    /// How long it has been slow, s.
-    pub(crate) slow_time: f64,
-    /// How far it has gone (m) and turned (rad) while it was slow.
-    pub(crate) strayed: (Vector<N>, Bivector<N>),
-    /// The sleeping island that it belongs to.
-    pub(crate) asleep_in: Option<u32>,
-    /// Its state turned non-finite; it stays where it last was, out of the simulation.
-    pub(crate) quarantined: bool,
-    /// Row of this step's solver, 0 for bodies that no impulse moves.
-    pub(crate) solver_index: u32,
 }
 
 /// Centre of mass and inertia for bodies that no impulse moves.

@@ -41,7 +41,7 @@ use super::Snapshot;
 pub const MAGIC: [u8; 8] = *b"HBSNAP\r\n";
 
 /// Version of the form that is written. Readers take this one only: the state is that of the engine's inside, which changes.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// Bytes before the state.
 const HEADER: usize = 24;

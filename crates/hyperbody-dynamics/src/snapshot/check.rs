@@ -43,13 +43,13 @@ impl<const N: usize> Snapshot<N> {
         if pair.body_a == pair.body_b || !(pushes || notices) {
             return Err("is of one body, or of two that nothing moves");
         }
-        if usize::from(pair.points) != pair.manifold().points().len() || pair.touching > pair.points {
+        if usize::from(pair.points) != pair.touches().len() || pair.touching > pair.points {
             return Err("counts other points than its contact has");
         }
         if pair.deepest < 0.0 {
             return Err("has a negative depth");
         }
-        let normal = pair.manifold().normal.norm();
+        let normal = pair.normal().norm();
         if pair.points > 0 && (normal - 1.0).abs() > UNIT_TOLERANCE {
             return Err("has a normal that is not of length 1");
         }

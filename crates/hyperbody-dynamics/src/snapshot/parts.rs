@@ -1,7 +1,7 @@
 //! What a snapshot is made of, part by part, as bytes. Structures list all of their fields, so that a new one cannot be
 //! forgotten; what is a buffer, or follows from the rest, is marked `unset` and made anew by `assemble`.
 
-use hyperbody_collision::MAX_POINTS;
+use hyperbody_collision::max_points;
 use hyperbody_geometry::bytes::{BytesError, Reader, Stored, Writer};
 use hyperbody_geometry::{stored, stored_choice};
 use hyperbody_math::{Bivector, Vector};
@@ -14,7 +14,7 @@ use crate::handle::{Arena, BodyHandle, Handle, JointHandle, Slot};
 use crate::islands::Islands;
 use crate::joint::{Coupling, Freedom, Joint, JointDef, Motor, Spring, WORLD};
 use crate::material::{CombineRule, Material};
-use crate::pairs::{Carried, Contact, Pair, PairRole, Pairs, Passage, Search};
+use crate::pairs::{Contact, Pair, PairRole, Pairs, Passage, Search, Touch};
 use crate::tuning::Tuning;
 use crate::world::Motion;
 
@@ -229,17 +229,14 @@ stored!(Pair<N> {
     contact,
 });
 
-/// Of the arrays a contact holds, those elements that belong to points.
+stored!(Touch<N> { point, normal_impulse, step_impulse, anchors });
+
 impl<const N: usize> Stored for Contact<N> {
     fn write(&self, out: &mut Writer) {
         (self.radii, (self.friction, self.restitution)).write(out);
         (self.resistance, (self.surface, self.share_of_b)).write(out);
-        self.manifold.write(out);
-        (self.friction_impulse, (self.twist_impulse, self.carried.normal_in_a)).write(out);
-        for point in 0..self.manifold.points().len() {
-            (self.normal_impulses[point], self.step_impulses[point]).write(out);
-            self.carried.anchors[point].write(out);
-        }
+        (self.friction_impulse, (self.twist_impulse, (self.normal, self.normal_in_a))).write(out);
+        self.touches.write(out);
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
@@ -249,27 +246,28 @@ impl<const N: usize> Stored for Contact<N> {
         if least.iter().any(|&value| value < 0.0) {
             return Err(from.error("radii, friction, restitution or resistance of a contact are negative"));
         }
-        let manifold: hyperbody_collision::Manifold<N> = Stored::read(from)?;
-        let (friction_impulse, (twist_impulse, normal_in_a)) = Stored::read(from)?;
-        let mut contact = Self {
-            radii,
+        let (friction_impulse, (twist_impulse, (normal, normal_in_a))) = Stored::read(from)?;
+        let touches: Vec<Touch<N>> = Stored::read(from)?;
+        if touches.len() > max_points(N) {
+            return Err(from.error(format!(
+                "a contact has {} points; there are at most {} in {N} dimensions",
+                touches.len(),
+                max_points(N)
+            )));
+        }
+        Ok(Self {
+            touches,
+            normal,
             friction,
             restitution,
             resistance,
             surface,
             share_of_b,
-            normal_impulses: [0.0; MAX_POINTS],
-            step_impulses: [0.0; MAX_POINTS],
             friction_impulse,
             twist_impulse,
-            carried: Carried { normal_in_a, anchors: [(Vector::ZERO, Vector::ZERO); MAX_POINTS] },
-            manifold,
-        };
-        for point in 0..contact.manifold.points().len() {
-            (contact.normal_impulses[point], contact.step_impulses[point]) = Stored::read(from)?;
-            contact.carried.anchors[point] = Stored::read(from)?;
-        }
-        Ok(contact)
+            normal_in_a,
+            radii,
+        })
     }
 }
 

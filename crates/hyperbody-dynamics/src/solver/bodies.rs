@@ -32,29 +32,32 @@ impl<const N: usize> Sizes<N> {
     pub(crate) const STATE: usize = (2 * Self::VELOCITY).next_multiple_of(WIDTH);
 }
 
-/// Mass, frame and base motion of a body during one step.
+/// Mass, frame and base motion of a body during one step; first what contacts of balls ask for.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub(crate) struct SolverBody<const N: usize> {
-    /// Slot in the world.
-    pub(crate) slot: u32,
     /// 1/√m; zero for bodies that no impulse moves.
     pub(crate) inverse_sqrt_mass: f64,
-    /// World from solver frame; `None` where that is the identity.
-    pub(crate) frame: Option<Rotation<N>>,
+    /// Slot in the world.
+    pub(crate) slot: u32,
+    /// See [`Body::is_ball`].
+    pub(crate) is_ball: bool,
+    pub(crate) spins_up: bool,
+    pub(crate) centre: Vector<N>,
+    /// Base motion: velocity at time t of the step = velocity + t · acceleration.
+    pub(crate) velocity: Vector<N>,
+    pub(crate) acceleration: Vector<N>,
+    /// How the surface runs along the body, world axes, m/s: friction is against it.
+    pub(crate) surface: Vector<N>,
+    pub(crate) angular_velocity: Bivector<N>,
     /// 1/√I of plane (i, j) of the solver frame, lexicographic; zero for bodies that no impulse moves.
     pub(crate) inverse_sqrt_moments: [f64; MAX_PLANES],
     /// What the moments have beside those of the body, kg·m²; see `joints/tension.rs`.
     pub(crate) added_moment: f64,
-    /// See [`Body::is_ball`].
-    pub(crate) is_ball: bool,
-    pub(crate) centre: Vector<N>,
-    /// Base motion: velocity at time t of the step = velocity + t · acceleration.
-    pub(crate) velocity: Vector<N>,
-    pub(crate) angular_velocity: Bivector<N>,
-    pub(crate) acceleration: Vector<N>,
+    /// World from solver frame; `None` where that is the identity.
+    pub(crate) frame: Option<Rotation<N>>,
+    /// Zero for most; `spins_up` tells.
     pub(crate) angular_acceleration: Bivector<N>,
-    /// How the surface runs along the body, world axes, m/s: friction is against it.
-    pub(crate) surface: Vector<N>,
 }
 
 impl<const N: usize> SolverBody<N> {
@@ -68,6 +71,7 @@ impl<const N: usize> SolverBody<N> {
             inverse_sqrt_moments: [1.0; MAX_PLANES],
             added_moment: 0.0,
             is_ball: false,
+            spins_up: false,
             centre: Vector::ZERO,
             velocity: Vector::ZERO,
             angular_velocity: Bivector::ZERO,
@@ -86,6 +90,7 @@ impl<const N: usize> SolverBody<N> {
             inverse_sqrt_moments: [0.0; MAX_PLANES],
             added_moment: 0.0,
             is_ball: false,
+            spins_up: false,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
@@ -109,12 +114,23 @@ impl<const N: usize> SolverBody<N> {
             inverse_sqrt_moments,
             added_moment,
             is_ball: body.is_ball,
+            spins_up: body.torque != Bivector::ZERO,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
             acceleration: gravity * body.gravity_scale + body.force * body.inverse_mass,
             angular_acceleration: body.inertia.velocity(&body.rotation, &body.torque),
             surface: body.surface_in_world(),
+        }
+    }
+
+    /// How much faster it spins up than another body, base motion.
+    #[inline]
+    pub(crate) fn spin_up_against(&self, other: &Self) -> Bivector<N> {
+        if self.spins_up || other.spins_up {
+            self.angular_acceleration - other.angular_acceleration
+        } else {
+            Bivector::ZERO
         }
     }
 
@@ -156,6 +172,24 @@ impl<const N: usize> SolverBody<N> {
         arm
     }
 
+    /// Adds `share` times an angular impulse, by the planes of the world, to the scaled angular velocity `spin`.
+    pub(crate) fn add_spin(&self, spin: &mut [Real], impulse: &[f64; MAX_PLANES], share: f64) {
+        let changes = match &self.frame {
+            None => {
+                let mut changes = *impulse;
+                changes.iter_mut().zip(&self.inverse_sqrt_moments).for_each(|(change, scale)| *change *= scale);
+                changes
+            }
+            Some(_) => {
+                let mut planes = impulse.iter();
+                self.lever(&Bivector::from_fn(|_, _| planes.next().copied().unwrap_or(0.0)))
+            }
+        };
+        for (value, change) in spin.iter_mut().zip(&changes[..Sizes::<N>::K]) {
+            *value += (change * share) as Real;
+        }
+    }
+
     /// Base velocity of the point at offset `r` at the start of the step.
     #[inline]
     pub(crate) fn base_velocity_at(&self, r: Vector<N>) -> Vector<N> {
@@ -165,7 +199,7 @@ impl<const N: usize> SolverBody<N> {
     /// Base acceleration of the point at offset `r`.
     #[inline]
     pub(crate) fn base_acceleration_at(&self, r: Vector<N>) -> Vector<N> {
-        self.acceleration + self.angular_acceleration.act_on(r)
+        if self.spins_up { self.acceleration + self.angular_acceleration.act_on(r) } else { self.acceleration }
     }
 
     /// A bivector of the solver frame, scaled by 1/√I (velocities, displacements), in the world.

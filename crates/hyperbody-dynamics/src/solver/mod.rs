@@ -19,6 +19,7 @@
 
 pub(crate) mod bodies;
 mod colours;
+mod coming;
 mod contacts;
 mod gyro;
 mod joints;
@@ -41,6 +42,7 @@ use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
+use coming::Coming;
 use contacts::{Arms, Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Respond, Sweep, WarmStart};
 use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
@@ -235,16 +237,20 @@ impl<const N: usize> Solver<N> {
                 } else {
                     prepare.fill(block, rows, lane, contact, (a, b), arms);
                 }
-                counts.0[lane] = contact.manifold.points().len() as Real;
+                counts.0[lane] = contact.touches.len() as Real;
             }
             if !block.round {
                 processor.run(Respond::<N> { block, rows, counts, arms });
             }
         };
+        let coming = |blocks: &[Block], index: usize| {
+            let coming = Coming { blocks, active, bodies };
+            coming.fetch(index, pairs);
+        };
         let (blocks, rows) = (self.contacts.blocks.as_slice(), self.contacts.rows.as_mut_slice());
         match input.pool {
-            Some(pool) => pool.install(|| fill_blocks(blocks, rows, &fill)),
-            None => fill_in_turn(blocks, rows, &fill),
+            Some(pool) => pool.install(|| fill_blocks(blocks, rows, &fill, &coming)),
+            None => fill_in_turn(blocks, rows, &fill, &coming),
         }
     }
 
@@ -352,7 +358,10 @@ impl<const N: usize> Solver<N> {
 
     /// Impulses to start the next step from; and from the spins what contacts added to the angular momentum.
     fn store_impulses(&mut self, input: &mut SolverInput<'_, N>) {
-        for block in &self.contacts.blocks {
+        let coming = Coming { blocks: &self.contacts.blocks, active: &self.active, bodies: &self.bodies };
+        for (index, block) in self.contacts.blocks.iter().enumerate() {
+            coming.fetch(index, input.pairs);
+            coming.fetch_rows(index, &self.contacts.rows);
             let rows = &self.contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
             for (lane, &index) in block.contacts.iter().enumerate() {
                 if index == Group::EMPTY {
@@ -365,21 +374,13 @@ impl<const N: usize> Solver<N> {
                     if a != 0 && b != 0 {
                         let excess = contacts::excess::<N>(block, rows, lane);
                         let share = contact.share_of_b;
-                        add_spin(&self.bodies[a], &mut self.state, a, &(excess * (share - 1.0)));
-                        add_spin(&self.bodies[b], &mut self.state, b, &(excess * -share));
+                        self.bodies[a].add_spin(&mut self.state[a * Sizes::<N>::STATE + N..], &excess, share - 1.0);
+                        self.bodies[b].add_spin(&mut self.state[b * Sizes::<N>::STATE + N..], &excess, -share);
                     }
                 }
             }
         }
         self.joints.store(input.joints, input.dt / f64::from(input.substeps));
-    }
-}
-
-/// Gives the body of a row an angular impulse, world planes.
-fn add_spin<const N: usize>(body: &SolverBody<N>, state: &mut [Real], row: usize, impulse: &Bivector<N>) {
-    let spin = row * Sizes::<N>::STATE + N;
-    for (value, change) in state[spin..spin + Sizes::<N>::K].iter_mut().zip(body.lever(impulse)) {
-        *value += change as Real;
     }
 }
 
@@ -391,26 +392,32 @@ fn fill_blocks<const N: usize>(
     blocks: &[Block],
     rows: &mut [Lanes],
     fill: &(impl Fn(&Block, &mut [Lanes], &mut Arms<N>) + Sync),
+    coming: &(impl Fn(&[Block], usize) + Sync),
 ) {
     if blocks.len() <= FEW_BLOCKS {
-        fill_in_turn(blocks, rows, fill);
+        fill_in_turn(blocks, rows, fill, coming);
         return;
     }
     let (first, second) = blocks.split_at(blocks.len() / 2);
     let (rows_of_first, rows_of_second) = rows.split_at_mut(second[0].start - first[0].start);
-    rayon::join(|| fill_blocks(first, rows_of_first, fill), || fill_blocks(second, rows_of_second, fill));
+    rayon::join(
+        || fill_blocks(first, rows_of_first, fill, coming),
+        || fill_blocks(second, rows_of_second, fill, coming),
+    );
 }
 
 fn fill_in_turn<const N: usize>(
     blocks: &[Block],
     rows: &mut [Lanes],
     fill: &impl Fn(&Block, &mut [Lanes], &mut Arms<N>),
+    coming: &impl Fn(&[Block], usize),
 ) {
     let mut arms = Arms::ZERO;
     let start = blocks.first().map_or(0, |block| block.start);
     for (index, block) in blocks.iter().enumerate() {
         let end = blocks.get(index + 1).map_or(start + rows.len(), |next| next.start);
         let rows = &mut rows[block.start - start..end - start];
+        coming(blocks, index);
         // Zeroed here, where they are written next, for they may be more than the cache holds.
         rows.fill(Lanes::ZERO);
         fill(block, rows, &mut arms);
@@ -429,9 +436,10 @@ fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
         inverse_sqrt_mass: 0.0,
         added_moment: 0.0,
         is_ball: false,
+        spins_up: false,
         frame: None,
         inverse_sqrt_moments: [0.0; bodies::MAX_PLANES],
-        centre: contact.manifold.points().first().map_or(Vector::ZERO, |point| point.position),
+        centre: contact.touches.first().map_or(Vector::ZERO, |touch| touch.point.position),
         velocity: Vector::ZERO,
         angular_velocity: Bivector::ZERO,
         acceleration: Vector::ZERO,

@@ -11,7 +11,7 @@ use super::bodies::{Sizes, SolverBody};
 use super::colours::{ActiveContact, Group};
 use super::contacts::{ContactRows, Layout, PassTimes};
 use super::lanes::Real;
-use crate::pairs::Pairs;
+use crate::pairs::{Pairs, Touch};
 
 /// Turn from which the arc is told from its tangent, rad: a millimetre and a quarter at an arm of a metre.
 const FAR: f64 = 0.05;
@@ -62,8 +62,8 @@ impl<const N: usize> Turning<N> {
                     continue;
                 }
                 let Some(held) = pairs.get(contact.pair).and_then(|pair| pair.contact.as_deref()) else { continue };
-                let normal = held.manifold.normal;
-                for (point, k) in held.manifold.points().iter().zip(0..) {
+                let normal = held.normal;
+                for (Touch { point, .. }, k) in held.touches.iter().zip(0..) {
                     // Round surfaces roll over their contact; what turns with the body is the core below.
                     let below = normal * (0.5 * point.separation + held.radii.0);
                     let above = normal * (0.5 * point.separation + held.radii.1);
@@ -86,7 +86,10 @@ impl<const N: usize> Turning<N> {
                 let turn = f64::from(value) * body.inverse_sqrt_moments[k];
                 by_impulses += turn * turn;
             }
-            let base = body.angular_velocity * moved + body.angular_acceleration * moved_sq;
+            let mut base = body.angular_velocity * moved;
+            if body.spins_up {
+                base += body.angular_acceleration * moved_sq;
+            }
             let known = self.place[row];
             if known == NONE && by_impulses.sqrt() + base.norm() <= FAR {
                 continue;

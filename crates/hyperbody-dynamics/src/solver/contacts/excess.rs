@@ -8,12 +8,11 @@
 //! Which body's arm went stale is a matter of where the contact went: with the ball that rolls on a plank, over the plank. The
 //! plank has to take all of it; any part that the ball took would drive it on. `wandering` says who takes how much.
 
-use hyperbody_math::{Bivector, planes};
-
 use super::pairing::Pairing;
 use super::round::RoundLayout;
 use super::solve::{PassTimes, Passes};
 use super::{Block, Layout};
+use crate::solver::bodies::{MAX_PLANES, Sizes};
 use crate::solver::lanes::Lanes;
 use crate::solver::machine::Machine;
 use crate::solver::wide::Wide;
@@ -84,12 +83,14 @@ impl<const N: usize, M: Machine> Pairing<N, M> {
     }
 }
 
-/// What a contact has added to the angular momentum of its two bodies in the step, kg·m²/s. `rows` are those of its block.
-pub(crate) fn excess<const N: usize>(block: &Block, rows: &[Lanes], lane: usize) -> Bivector<N> {
+/// What a contact has added to the angular momentum of its two bodies in the step, kg·m²/s, by the planes of the world. `rows` are
+/// those of its block.
+#[inline]
+pub(crate) fn excess<const N: usize>(block: &Block, rows: &[Lanes], lane: usize) -> [f64; MAX_PLANES] {
     let start = if block.round { RoundLayout::<N>::EXCESS } else { Layout::<N>::EXCESS };
-    let mut sum = Bivector::ZERO;
-    for (k, (i, j)) in planes::all(N).enumerate() {
-        sum.set(i, j, f64::from(rows[start + k].0[lane]));
+    let mut sum = [0.0; MAX_PLANES];
+    for (sum, row) in sum.iter_mut().zip(&rows[start..start + Sizes::<N>::K]) {
+        *sum = f64::from(row.0[lane]);
     }
     sum
 }

@@ -4,7 +4,7 @@ use hyperbody_math::{Bivector, Vector};
 
 use super::arms::Arms;
 use super::{Block, Layout, round};
-use crate::pairs::Contact;
+use crate::pairs::{Contact, Touch};
 use crate::solver::bodies::SolverBody;
 use crate::solver::lanes::{Lanes, Real, WIDTH};
 use crate::solver::softness::Softness;
@@ -58,16 +58,16 @@ impl Prepare {
         let mut lane = Lane { rows, lane, a, b };
         lane.coefficients(contact, self.softness(a, b));
         lane.centres(contact);
-        let points = contact.manifold.points();
+        let touches = contact.touches.as_slice();
         let mut centre = Vector::ZERO;
-        for point in points {
-            centre += point.position * (1.0 / points.len() as f64);
+        for touch in touches {
+            centre += touch.point.position * (1.0 / touches.len() as f64);
         }
-        let tangents = contact.manifold.normal.orthonormal_complement();
+        let tangents = contact.normal.orthonormal_complement();
         let r = lane.offsets(centre);
         let motion = lane.base_motion(r);
-        arms.a.fill(lane.lane, a, r.a, contact.manifold.normal, &tangents);
-        arms.b.fill(lane.lane, b, r.b, contact.manifold.normal, &tangents);
+        arms.a.fill(lane.lane, a, r.a, contact.normal, &tangents);
+        arms.b.fill(lane.lane, b, r.b, contact.normal, &tangents);
         lane.sliding(contact, &tangents, motion);
         if block.twists > 0 {
             lane.twisting(contact, &tangents);
@@ -115,7 +115,7 @@ impl<const N: usize> Lane<'_, N> {
         self.set(Layout::<N>::RESTITUTION, contact.restitution);
         self.set(Layout::<N>::BIAS_RATE, softness.bias_rate);
         // The spring is the manifold's, shared evenly by its points: a patch is as stiff with sixteen corners as with one.
-        let share = self.inverse_mass_sum() * contact.manifold.points().len() as f64;
+        let share = self.inverse_mass_sum() * contact.touches.len() as f64;
         let softness_share = (softness.impulse_scale / softness.mass_scale).max(RIGID_SHARE);
         self.set(Layout::<N>::SOFTNESS, share * softness_share);
         self.set(Layout::<N>::STIFFENER, share * RIGID_SHARE);
@@ -123,7 +123,7 @@ impl<const N: usize> Lane<'_, N> {
 
     /// The normal, and how the centres move against each other.
     fn centres(&mut self, contact: &Contact<N>) {
-        self.set_vector(Layout::<N>::NORMAL, contact.manifold.normal);
+        self.set_vector(Layout::<N>::NORMAL, contact.normal);
         self.set_vector(Layout::<N>::CENTRE_VELOCITY, self.b.velocity - self.a.velocity);
         self.set_vector(Layout::<N>::CENTRE_ACCELERATION, self.b.acceleration - self.a.acceleration);
     }
@@ -148,7 +148,7 @@ impl<const N: usize> Lane<'_, N> {
     /// Twisting rows are the planes of the tangent space; their bivectors are orthonormal.
     fn twisting(&mut self, contact: &Contact<N>, tangents: &[Vector<N>; N]) {
         let spin = self.b.angular_velocity - self.a.angular_velocity;
-        let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
+        let spin_up = self.b.spin_up_against(self.a);
         let mut row = 0;
         for s in 0..Layout::<N>::SLIDES {
             for t in s + 1..Layout::<N>::SLIDES {
@@ -168,7 +168,7 @@ impl<const N: usize> Lane<'_, N> {
         self.set(start + Layout::<N>::ROLLING, contact.resistance.0);
         self.set(start + Layout::<N>::TWISTING, contact.resistance.1);
         for t in 0..Layout::<N>::SLIDES {
-            let plane = Bivector::wedge(tangents[t], contact.manifold.normal);
+            let plane = Bivector::wedge(tangents[t], contact.normal);
             self.set(start + Layout::<N>::ROLLING_IMPULSES + t, contact.twist_impulse.dot(&plane));
         }
     }
@@ -181,7 +181,7 @@ impl<const N: usize> Lane<'_, N> {
         (mut velocity, acceleration): (Vector<N>, Vector<N>),
         block: &Block,
     ) {
-        let normal = contact.manifold.normal;
+        let normal = contact.normal;
         if contact.surface != Vector::ZERO {
             velocity += contact.surface;
         }
@@ -189,7 +189,7 @@ impl<const N: usize> Lane<'_, N> {
         self.set(start + Layout::<N>::FIELD_VELOCITY, velocity.dot(normal));
         self.set(start + Layout::<N>::FIELD_ACCELERATION, acceleration.dot(normal));
         let spin = self.b.angular_velocity - self.a.angular_velocity;
-        let spin_up = self.b.angular_acceleration - self.a.angular_acceleration;
+        let spin_up = self.b.spin_up_against(self.a);
         for t in 1..Layout::<N>::field_rows(block) {
             let at = start + t * Layout::<N>::FIELD_ROW;
             let tangent = tangents[t - 1];
@@ -199,11 +199,10 @@ impl<const N: usize> Lane<'_, N> {
     }
 
     fn points(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
-        let points = contact.manifold.points();
-        for (index, point) in points.iter().enumerate() {
+        for (index, Touch { point, normal_impulse, .. }) in contact.touches.iter().enumerate() {
             let at = Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW;
             self.set(at + Layout::<N>::POINT_GAP, point.separation);
-            self.set(at + Layout::<N>::POINT_IMPULSE, f64::from(contact.normal_impulses[index]));
+            self.set(at + Layout::<N>::POINT_IMPULSE, f64::from(*normal_impulse));
             for t in 0..Layout::<N>::SLIDES {
                 self.set(at + Layout::<N>::POINT_LEVER + t, (point.position - centre).dot(tangents[t]));
             }
@@ -238,14 +237,14 @@ pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, 
     if block.resists {
         let start = Layout::<N>::resistance_start(block) + Layout::<N>::ROLLING_IMPULSES;
         for t in 0..Layout::<N>::SLIDES {
-            contact.twist_impulse += Bivector::wedge(tangents[t], contact.manifold.normal) * value(start + t);
+            contact.twist_impulse += Bivector::wedge(tangents[t], contact.normal) * value(start + t);
         }
     }
     let start = Layout::<N>::points_start(block);
-    for index in 0..contact.manifold.points().len() {
+    for (index, touch) in contact.touches.iter_mut().enumerate() {
         let at = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_IMPULSE;
-        contact.normal_impulses[index] = rows[at].0[lane];
+        touch.normal_impulse = rows[at].0[lane];
         let total = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_STEP_IMPULSE;
-        contact.step_impulses[index] = rows[total].0[lane];
+        touch.step_impulse = rows[total].0[lane];
     }
 }

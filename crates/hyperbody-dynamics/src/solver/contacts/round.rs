@@ -271,9 +271,10 @@ impl Prepare {
         a: &SolverBody<N>,
         b: &SolverBody<N>,
     ) {
-        let [point] = contact.manifold.points() else { return };
+        let [touch] = contact.touches.as_slice() else { return };
+        let point = &touch.point;
         let mut lane = Lane { rows: &mut rows[..RoundLayout::<N>::LEN], lane, a, b };
-        let normal = contact.manifold.normal;
+        let normal = contact.normal;
         let across = |v: Vector<N>| v - normal * normal.dot(v);
         lane.coefficients(contact, self.softness(a, b));
         let r = lane.offsets(point.position);
@@ -285,7 +286,7 @@ impl Prepare {
         lane.set(RoundLayout::<N>::INVERSE_MASS, inverse_mass);
         lane.set(RoundLayout::<N>::SLIDE_MASS, 1.0 / (inverse_mass + arms.0 * arms.0 + arms.1 * arms.1));
         lane.set(RoundLayout::<N>::GAP, point.separation);
-        lane.set(RoundLayout::<N>::IMPULSE, f64::from(contact.normal_impulses[0]));
+        lane.set(RoundLayout::<N>::IMPULSE, f64::from(touch.normal_impulse));
         let (velocity, acceleration) = lane.base_motion(r);
         let velocity = velocity + contact.surface;
         lane.set(RoundLayout::<N>::NORMAL_VELOCITY, velocity.dot(normal));
@@ -304,6 +305,8 @@ pub(super) fn store<const N: usize>(rows: &[Lanes], lane: usize, contact: &mut C
     let value = |position: usize| rows[position].0[lane];
     contact.friction_impulse = Vector::from_fn(|i| f64::from(value(RoundLayout::<N>::FRICTION_IMPULSE + i)));
     contact.twist_impulse = Bivector::ZERO;
-    contact.normal_impulses[0] = value(RoundLayout::<N>::IMPULSE);
-    contact.step_impulses[0] = value(RoundLayout::<N>::STEP_IMPULSE);
+    for touch in &mut contact.touches {
+        touch.normal_impulse = value(RoundLayout::<N>::IMPULSE);
+        touch.step_impulse = value(RoundLayout::<N>::STEP_IMPULSE);
+    }
 }
