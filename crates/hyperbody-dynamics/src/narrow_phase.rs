@@ -6,6 +6,7 @@ use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 use rayon::prelude::*;
 
+use crate::ahead::{IS_HEARD, fetch};
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::pairs::{Contact, Pair, PairRole, Touch, fetch_contacts};
@@ -148,9 +149,22 @@ impl<const N: usize> Update<'_, N> {
     fn pairs(&self, slots: &mut [Option<Pair<N>>], scratch: &mut Scratch<N>) {
         for slot in 0..slots.len() {
             fetch_contacts(slots, slot);
+            self.fetch_search(slots, slot + 8);
             if let Some(pair) = &mut slots[slot] {
                 self.pair(pair, scratch);
             }
+        }
+    }
+
+    /// Asks for what searching a pair starts from, if it has to be searched.
+    #[inline]
+    fn fetch_search(&self, slots: &[Option<Pair<N>>], slot: usize) {
+        let Some(pair) = slots.get(slot).and_then(Option::as_ref).filter(|pair| IS_HEARD && !pair.round) else {
+            return;
+        };
+        let way = |collider: u32| self.motions[collider as usize].way;
+        if way(pair.collider_a) + way(pair.collider_b) > pair.holds_until {
+            fetch(&pair.search.a_from_b, usize::MAX);
         }
     }
 

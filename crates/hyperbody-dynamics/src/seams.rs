@@ -54,13 +54,41 @@ const UPRIGHT: f64 = 0.95;
 pub(crate) struct Seams<const N: usize> {
     /// Slots of pairs that may hold ghosts.
     pub(crate) suspects: Vec<u32>,
-    /// Dynamic bodies of the suspects, and by slot whether a body is one of them.
-    bodies: Vec<u32>,
-    marked: Vec<bool>,
-    /// Body and pair of all contacts of those, ascending.
+    /// By slot of the body: where its contacts begin in `holds`; [`NONE`] for all but the dynamic bodies of suspects.
+    places: Vec<u32>,
+    /// Body and pair of all contacts of those bodies, ascending.
     contacts: Vec<(u32, u32)>,
+    /// The same contacts as their bodies see them.
+    holds: Vec<Hold<N>>,
     /// Pair, and the normal that it gets, from a to b; none for those that are dropped.
     ghosts: Vec<(u32, Option<Vector<N>>)>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl<const N: usize> Seams<N> {
+    /// The contacts of a body, if it is one of those that are looked at.
+    fn contacts_of(&self, body: u32) -> &[Hold<N>] {
+        let place = self.places[body as usize];
+        let from_there = if place == NONE { &[] } else { &self.holds[place as usize..] };
+        let count = from_there.iter().take_while(|hold| hold.body == body).count();
+        &from_there[..count]
+    }
+}
+
+/// A contact as one of its bodies sees it.
+#[derive(Clone, Copy, Debug)]
+struct Hold<const N: usize> {
+    body: u32,
+    /// Slots of the pair and of the colliders of the body and of its partner.
+    pair: u32,
+    own: u32,
+    partner: u32,
+    /// Unit, world axes, towards the body.
+    normal: Vector<N>,
+    /// The deepest point, and its separation, m.
+    point: Vector<N>,
+    separation: f64,
 }
 
 /// Whether a contact that was just found approaches along its normal, as ghosts do, or parts, as behind an edge, however
@@ -93,69 +121,81 @@ impl<const N: usize> World<N> {
     }
 
     fn collect_contacts_of_suspects(&self, seams: &mut Seams<N>) {
-        seams.bodies.clear();
-        for pair in seams.suspects.iter().filter_map(|&slot| self.pairs.get(slot)) {
-            seams.bodies.extend([pair.body_a, pair.body_b]);
+        let Seams { suspects, places, contacts, holds, .. } = seams;
+        places.clear();
+        places.resize(self.bodies.slot_count(), NONE);
+        for pair in suspects.iter().filter_map(|&slot| self.pairs.get(slot)) {
+            for body in [pair.body_a, pair.body_b] {
+                if self.bodies.at(body).is_some_and(|body| body.kind == BodyKind::Dynamic) {
+                    places[body as usize] = 0;
+                }
+            }
         }
-        seams.bodies.retain(|&body| self.bodies.at(body).is_some_and(|body| body.kind == BodyKind::Dynamic));
-        seams.marked.clear();
-        seams.marked.resize(self.bodies.slot_count(), false);
-        seams.bodies.iter().for_each(|&body| seams.marked[body as usize] = true);
-        seams.contacts.clear();
+        contacts.clear();
         for (slot, pair) in self.pairs.slots().iter().enumerate() {
             let Some(pair) = pair.as_ref().filter(|pair| pair.points > 0) else { continue };
             for body in [pair.body_a, pair.body_b] {
-                if seams.marked[body as usize] {
-                    seams.contacts.push((body, slot as u32));
+                if places[body as usize] != NONE {
+                    contacts.push((body, slot as u32));
                 }
             }
         }
-        seams.contacts.sort_unstable_by_key(in_order);
+        contacts.sort_unstable_by_key(in_order);
+        holds.clear();
+        holds.extend(contacts.iter().filter_map(|&(body, slot)| self.hold(body, slot)));
+        for (place, hold) in holds.iter().enumerate().rev() {
+            places[hold.body as usize] = place as u32;
+        }
     }
 
     fn find_ghosts(&self, seams: &mut Seams<N>) {
-        seams.ghosts.clear();
+        let mut ghosts = std::mem::take(&mut seams.ghosts);
+        ghosts.clear();
         for &suspect in &seams.suspects {
             let Some(pair) = self.pairs.get(suspect) else { continue };
             let mut best: Option<(f64, Vector<N>)> = None;
+            let mut below = None;
             for (body, sign) in [(pair.body_a, -1.0), (pair.body_b, 1.0)] {
-                let others = contacts_of(&seams.contacts, body);
-                for &(_, other) in others {
-                    let Some((cosine, normal)) = self.explains(body, other, suspect) else { continue };
-                    let holds = self.hardly_approaches(other)
-                        || !others.iter().any(|&(_, third)| self.explains(body, third, other).is_some());
+                let others = seams.contacts_of(body);
+                let Some(of) = others.iter().find(|hold| hold.pair == suspect) else { continue };
+                for by in others {
+                    let Some(cosine) = self.explains(by, of) else { continue };
+                    let holds = self.hardly_approaches(by.pair)
+                        || !others.iter().any(|third| self.explains(third, by).is_some());
                     // One that makes it needless counts for more than any that would set it upright.
                     if holds && best.is_none_or(|(most, _)| most > UPRIGHT && (cosine <= UPRIGHT || cosine > most)) {
-                        best = Some((cosine, normal * sign));
+                        best = Some((cosine, by.normal * sign));
                     }
                 }
+                below = below.or_else(|| Some(self.facet_below(of)? * sign));
             }
-            let normal = match best {
-                Some((cosine, _)) if cosine <= UPRIGHT => None,
-                _ => match self.facet_below(pair.body_a, suspect, -1.0).or(self.facet_below(pair.body_b, suspect, 1.0))
-                {
-                    Some(normal) => Some(normal),
-                    None if best.is_some() => best.map(|(_, normal)| normal),
-                    None => continue,
-                },
+            let normal = match (best, below) {
+                (Some((cosine, _)), _) if cosine <= UPRIGHT => None,
+                (_, Some(facet)) => Some(facet),
+                (Some((_, normal)), None) => Some(normal),
+                (None, None) => continue,
             };
-            seams.ghosts.push((suspect, normal));
+            ghosts.push((suspect, normal));
         }
+        seams.ghosts = ghosts;
+    }
+
+    fn collider(&self, slot: u32) -> Option<&Collider<N>> {
+        self.colliders[slot as usize].as_ref()
     }
 
     /// Normal of a facet on which a contact of a body nearly stands, on a partner that impulses do not move: what leans there
-    /// follows the pitch of the body, or an edge within a floor. From a to b if `sign` says how the body's is turned.
-    fn facet_below(&self, body: u32, slot: u32, sign: f64) -> Option<Vector<N>> {
-        self.bodies.at(body).filter(|body| body.kind == BodyKind::Dynamic)?;
-        let hold = self.hold(body, slot)?;
-        self.bodies.at(hold.partner.body).filter(|partner| partner.kind != BodyKind::Dynamic)?;
-        let facet = nearest_facet(hold.partner, hold.normal)?;
+    /// follows the pitch of the body, or an edge within a floor. Towards the body.
+    fn facet_below(&self, hold: &Hold<N>) -> Option<Vector<N>> {
+        let (own, partner) = (self.collider(hold.own)?, self.collider(hold.partner)?);
+        self.bodies.at(partner.body).filter(|partner| partner.kind != BodyKind::Dynamic)?;
+        let facet = nearest_facet(partner, hold.normal)?;
         if facet.dot(hold.normal) <= UPRIGHT {
             return None;
         }
-        let (own, partner) = (span(hold.own, facet)?, span(hold.partner, facet)?);
+        let (own, partner) = (span(own, facet)?, span(partner, facet)?);
         let flush = FLUSH.min(FLUSH_SHARE * (own.1 - own.0).min(partner.1 - partner.0));
-        (own.0 - partner.1 >= hold.separation.min(0.0) - flush).then_some(facet * sign)
+        (own.0 - partner.1 >= hold.separation.min(0.0) - flush).then_some(facet)
     }
 
     fn hardly_approaches(&self, slot: u32) -> bool {
@@ -166,13 +206,12 @@ impl<const N: usize> World<N> {
         }
     }
 
-    /// If the plane on which contact `by` holds a body keeps it clear of its partner in contact `of`: its normal, towards
-    /// the body, and how near the other normal is to that.
-    fn explains(&self, body: u32, by: u32, of: u32) -> Option<(f64, Vector<N>)> {
-        if by == of {
+    /// If the plane on which contact `by` holds a body keeps it clear of its partner in contact `of` of the same body: how near
+    /// the normals are to each other, as a cosine.
+    fn explains(&self, by: &Hold<N>, of: &Hold<N>) -> Option<f64> {
+        if by.pair == of.pair {
             return None;
         }
-        let (by, of) = (self.hold(body, by)?, self.hold(body, of)?);
         let cosine = by.normal.dot(of.normal);
         // What the contact points show of the two is enough to rule most out.
         let seen = (by.point - of.point).dot(by.normal) + 0.5 * (by.separation + cosine * of.separation);
@@ -180,21 +219,24 @@ impl<const N: usize> World<N> {
         if seen < sunk - FLUSH || (by.normal - of.normal).norm_sq() < LEAN * LEAN {
             return None;
         }
-        let (own, partner) = (span(of.own, by.normal)?, span(of.partner, by.normal)?);
+        let (own, partner) = (span(self.collider(of.own)?, by.normal)?, span(self.collider(of.partner)?, by.normal)?);
         let flush = FLUSH.min(FLUSH_SHARE * (own.1 - own.0).min(partner.1 - partner.0));
         // The lowest of the body stands above the highest of the partner, but for what has sunk in and what is flush.
-        (own.0 - partner.1 >= sunk - flush).then_some((cosine, by.normal))
+        (own.0 - partner.1 >= sunk - flush).then_some(cosine)
     }
 
     /// A contact as its body sees it.
-    fn hold(&self, body: u32, slot: u32) -> Option<Hold<'_, N>> {
+    fn hold(&self, body: u32, slot: u32) -> Option<Hold<N>> {
         let pair = self.pairs.get(slot)?;
-        let (a, b) =
-            (self.colliders[pair.collider_a as usize].as_ref()?, self.colliders[pair.collider_b as usize].as_ref()?);
-        let (own, partner, normal) = if pair.body_a == body { (a, b, -pair.normal()) } else { (b, a, pair.normal()) };
+        let (own, partner, normal) = if pair.body_a == body {
+            (pair.collider_a, pair.collider_b, -pair.normal())
+        } else {
+            (pair.collider_b, pair.collider_a, pair.normal())
+        };
         let points = pair.touches().iter().map(|touch| &touch.point);
         let deepest = points.min_by(|a, b| a.separation.total_cmp(&b.separation))?;
-        Some(Hold { own, partner, normal, point: deepest.position, separation: deepest.separation })
+        let (point, separation) = (deepest.position, deepest.separation);
+        Some(Hold { body, pair: slot, own, partner, normal, point, separation })
     }
 
     /// Gives a contact another normal, or drops it.
@@ -212,17 +254,6 @@ impl<const N: usize> World<N> {
             }
         }
     }
-}
-
-/// A contact as one of its bodies sees it.
-struct Hold<'a, const N: usize> {
-    own: &'a Collider<N>,
-    partner: &'a Collider<N>,
-    /// Unit, world axes, towards the body.
-    normal: Vector<N>,
-    /// The deepest point, and its separation, m.
-    point: Vector<N>,
-    separation: f64,
 }
 
 /// Least and greatest coordinate along a unit direction of the world, m; `None` for half-spaces.
@@ -254,11 +285,4 @@ fn nearest_facet<const N: usize>(collider: &Collider<N>, direction: Vector<N>) -
         Core::Point | Core::Segment { .. } => return None,
     };
     Some(rotation.rotate(normal))
-}
-
-/// The contacts of a body.
-fn contacts_of(contacts: &[(u32, u32)], body: u32) -> &[(u32, u32)] {
-    let start = contacts.partition_point(|&(other, _)| other < body);
-    let end = contacts.partition_point(|&(other, _)| other <= body);
-    &contacts[start..end]
 }
