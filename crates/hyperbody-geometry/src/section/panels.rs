@@ -13,7 +13,7 @@ use hyperbody_math::scalar;
 pub(super) const NODES: usize = 24;
 
 /// Breaks nearer to each other than this are one. What happens in between is as small as it is short.
-const NEAREST: f64 = 1e-10;
+pub(super) const NEAREST: f64 = 1e-10;
 
 /// A panel is at most this many times as long as those beside it.
 const GROWTH: f64 = 2.5;
@@ -98,10 +98,10 @@ pub(super) fn interpolated(low: f64, high: f64, values: &[f64; NODES], x: f64) -
     sum / weights
 }
 
-/// Breaks in order, and of such as are nearly the same one.
-pub(super) fn in_order(mut breaks: Vec<f64>) -> Vec<f64> {
+/// Breaks in order, and of such as are nearer to each other than `nearest` one.
+pub(super) fn in_order(mut breaks: Vec<f64>, nearest: f64) -> Vec<f64> {
     breaks.sort_unstable_by(f64::total_cmp);
-    breaks.dedup_by(|later, earlier| *later - *earlier < NEAREST);
+    breaks.dedup_by(|later, earlier| *later - *earlier < nearest);
     breaks
 }
 
