@@ -22,6 +22,9 @@ const TOLERANCE: f64 = 1e-9;
 /// Depth in tolerances from which nothing is doubtful.
 const CLEARLY: f64 = 1e3;
 
+/// Steps of the search for a point of a wall that is clearly within a cell.
+const SEARCH_STEPS: usize = 40;
+
 /// How many pieces of surface are tried for the one whose hyperplane cuts the fewest others.
 const CANDIDATES: usize = 8;
 
@@ -40,28 +43,13 @@ pub fn convex_cells<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]]) 
     let tolerance = TOLERANCE * size;
     let pieces: Vec<[Vector<N>; N]> = surface.iter().map(|simplex| simplex.map(|v| points[v as usize])).collect();
     let all: Vec<Wall<N>> = pieces.iter().filter_map(|corners| Wall::new(*corners)).collect();
-    let mut waiting: Vec<(Polytope<N>, Vec<usize>)> = vec![(hull, (0..all.len()).collect())];
-    let mut cells = Vec::new();
-    let (mut cuts, mut simple) = (0, true);
-    while let Some((cell, near)) = waiting.pop() {
-        let crossing: Vec<usize> = near.into_iter().filter(|&wall| all[wall].passes(&cell, tolerance)).collect();
-        let Some(plane) = best_plane(&all, &crossing, tolerance) else {
-            let winding = winding_number(&pieces, cell.vertex_mean())?;
-            simple &= winding == 0 || winding == 1;
-            if winding != 0 {
-                cells.push(cell);
-            }
-            continue;
-        };
-        cuts += 1;
-        if cuts > MAX_CELLS {
-            let message = format!(
-                "the solid takes more than {MAX_CELLS} cuts to come apart into convex cells: use a simpler mesh"
-            );
-            return Err(GeometryError::new(BadCount, message));
+    let (mut cells, mut simple) = (Vec::new(), true);
+    for cell in partition(hull, &all, tolerance)? {
+        let winding = winding_number(&pieces, cell.vertex_mean())?;
+        simple &= winding == 0 || winding == 1;
+        if winding != 0 {
+            cells.push(cell);
         }
-        let halves = [clip(&cell, &plane, tolerance), clip(&cell, &plane.flipped(), tolerance)];
-        waiting.extend(halves.into_iter().flatten().map(|half| (half, crossing.clone())));
     }
     let cells = join(cells, tolerance);
     let content: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
@@ -78,6 +66,75 @@ pub fn convex_cells<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]]) 
         return Err(GeometryError::new(BadMesh, message.to_string()));
     }
     Ok(cells)
+}
+
+/// A cell that is cut further.
+struct Uncut<const N: usize> {
+    cell: Polytope<N>,
+    /// The walls that pass through it.
+    crossing: Vec<usize>,
+    /// In how many hyperplanes they lie: each of them has to be one of the cuts.
+    planes: usize,
+    /// Which side of each cut it is on, so that cells come in the same order in whatever order they are cut.
+    sides: Vec<bool>,
+}
+
+/// Cuts a polytope by hyperplanes of walls until none passes through any cell. What is cut most comes first, so that a surface that takes
+/// too many cuts is known early, by the hyperplanes that are still to come.
+fn partition<const N: usize>(hull: Polytope<N>, all: &[Wall<N>], tolerance: f64) -> Result<Vec<Polytope<N>>> {
+    let mut done: Vec<(Vec<bool>, Polytope<N>)> = Vec::new();
+    let mut waiting: Vec<Uncut<N>> = Vec::new();
+    let mut halves = vec![(hull, (0..all.len()).collect::<Vec<usize>>(), Vec::new())];
+    let (mut cuts, mut planes_left) = (0, 0);
+    loop {
+        for (cell, near, sides) in halves.drain(..) {
+            let crossing: Vec<usize> = near.into_iter().filter(|&wall| all[wall].passes(&cell, tolerance)).collect();
+            if crossing.is_empty() {
+                done.push((sides, cell));
+                continue;
+            }
+            let planes = count_planes(all, &crossing, tolerance);
+            planes_left += planes;
+            waiting.push(Uncut { cell, crossing, planes, sides });
+        }
+        if cuts + planes_left > MAX_CELLS {
+            let message = format!(
+                "the solid takes {} cuts or more to come apart into convex cells, and {MAX_CELLS} is the limit: use a simpler \
+                 mesh (of some 1000 triangles), or several meshes as parts of a compound",
+                cuts + planes_left
+            );
+            return Err(GeometryError::new(BadCount, message));
+        }
+        let Some(most) = (0..waiting.len()).max_by_key(|&index| waiting[index].planes) else { break };
+        let Uncut { cell, crossing, planes, sides } = waiting.swap_remove(most);
+        planes_left -= planes;
+        cuts += 1;
+        let Some(plane) = best_plane(all, &crossing, tolerance) else { continue };
+        for (side, plane) in [(true, plane), (false, plane.flipped())] {
+            if let Some(half) = clip(&cell, &plane, tolerance) {
+                halves.push((half, crossing.clone(), [&sides[..], &[side]].concat()));
+            }
+        }
+    }
+    done.sort_by(|(a, _), (b, _)| a.cmp(b));
+    Ok(done.into_iter().map(|(_, cell)| cell).collect())
+}
+
+/// In how many hyperplanes walls lie, at least; counted until there are too many.
+fn count_planes<const N: usize>(all: &[Wall<N>], walls: &[usize], tolerance: f64) -> usize {
+    let mut planes: Vec<&Hyperplane<N>> = Vec::new();
+    for &wall in walls {
+        // Twice as wide as walls are told apart elsewhere: rather too few than too many.
+        let lies_in =
+            |plane: &&&Hyperplane<N>| all[wall].corners.iter().all(|&c| plane.distance(c).abs() <= 2.0 * tolerance);
+        if !planes.iter().rev().any(|plane| lies_in(&plane)) {
+            planes.push(&all[wall].plane);
+        }
+        if planes.len() > MAX_CELLS {
+            break;
+        }
+    }
+    planes.len()
 }
 
 /// A simplex of the surface.
@@ -115,12 +172,7 @@ impl<const N: usize> Wall<N> {
         if self.sides.iter().any(beyond) {
             return false;
         }
-        // Most walls that pass have their middle well within the cell, which spares making hulls.
-        let middle = self.corners.iter().fold(Vector::ZERO, |sum, &c| sum + c) / N as f64;
-        let depth = |planes: &mut dyn Iterator<Item = f64>| planes.fold(f64::INFINITY, f64::min);
-        let within = depth(&mut cell.facets().iter().map(|f| f.offset - f.normal.dot(middle)));
-        let wide = depth(&mut self.sides.iter().map(|side| -side.distance(middle)));
-        if within.min(wide) > CLEARLY * tolerance {
+        if self.is_clearly_within(cell, CLEARLY * tolerance) {
             return true;
         }
         let mut rest = cell.clone();
@@ -131,6 +183,30 @@ impl<const N: usize> Wall<N> {
             }
         }
         divides(&self.plane, &rest, tolerance)
+    }
+
+    /// Whether a point of the wall is found that is deeper than `depth` within the cell and within the wall, which spares making hulls:
+    /// from the middle of the wall, away from whatever is nearest, again and again (S. Agmon, T. Motzkin, 1954). False may mean that
+    /// there is none.
+    fn is_clearly_within(&self, cell: &Polytope<N>, depth: f64) -> bool {
+        let mut point = self.corners.iter().fold(Vector::ZERO, |sum, &c| sum + c) / N as f64;
+        let size = self.corners[0].distance(point);
+        for _ in 0..SEARCH_STEPS {
+            let facets = cell.facets().iter().map(|f| (f.offset - f.normal.dot(point), f.normal));
+            let sides = self.sides.iter().map(|side| (-side.distance(point), side.normal));
+            let Some((least, outward)) = facets.chain(sides).min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
+            if least > depth {
+                return true;
+            }
+            // Within the hyperplane of the wall, and a little farther than to the edge.
+            let along = outward - self.plane.normal * self.plane.normal.dot(outward);
+            let length_sq = along.norm_sq();
+            if length_sq < 1e-12 {
+                return false;
+            }
+            point -= along * ((1.2 * (depth - least) + 0.01 * size) / length_sq);
+        }
+        false
     }
 }
 

@@ -252,3 +252,48 @@ fn stars_count_their_windings() {
     let expected = 2.5 * (std::f64::consts::TAU * 2.0 / 5.0).sin();
     assert!((mass::<2>(&file).mass - expected).abs() < 1e-14);
 }
+
+/// Rows of `across` points in circles, closed in both directions, two triangles for each step.
+fn closed_grid(along: u32, across: u32, point: impl Fn(f64, f64) -> Vector<3>) -> (Vec<Vector<3>>, Vec<[u32; 3]>) {
+    let turn = |k: u32, of: u32| std::f64::consts::TAU * f64::from(k) / f64::from(of);
+    let places = (0..along).flat_map(|i| (0..across).map(move |j| (i, j)));
+    let points = places.clone().map(|(i, j)| point(turn(i, along), turn(j, across))).collect();
+    let index = |i: u32, j: u32| (i % along) * across + j % across;
+    let two = |(i, j): (u32, u32)| {
+        let (a, b, c, d) = (index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1));
+        [[a, b, c], [a, c, d]]
+    };
+    (points, places.flat_map(two).collect())
+}
+
+/// Meshes of thousands of triangles take seconds; those that come apart into too many cells are refused before they do.
+#[test]
+fn large_meshes_are_cells_or_are_refused_soon() {
+    let ring = |bumps: f64| {
+        move |around: f64, tube: f64| {
+            let thick = 0.4 + bumps * (7.0 * around).sin() * (5.0 * tube).sin();
+            let out = 1.0 + thick * tube.cos();
+            Vector([out * around.cos(), out * around.sin(), thick * tube.sin()])
+        }
+    };
+    let start = std::time::Instant::now();
+    let (points, surface) = closed_grid(48, 24, ring(0.0));
+    let cells = convex_cells(&points, &surface).unwrap();
+    let sum: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+    let whole = MassProperties::of_closed_boundary(&points, &surface).unwrap().mass;
+    println!("{} triangles are {} cells: {:.1?}", surface.len(), cells.len(), start.elapsed());
+    assert!((sum / whole - 1.0).abs() < 1e-9, "{sum} for {whole}");
+
+    let start = std::time::Instant::now();
+    let (points, surface) = closed_grid(100, 60, ring(0.1));
+    let error = convex_cells(&points, &surface).unwrap_err();
+    println!("{} triangles are refused: {:.1?}", surface.len(), start.elapsed());
+    assert_eq!(error.kind(), GeometryErrorKind::BadCount);
+    assert!(error.to_string().contains("4096 is the limit: use a simpler mesh"), "{error}");
+    // It took minutes; a second or so is enough, with room for a busy machine.
+    assert!(
+        start.elapsed().as_secs() < 60,
+        "refused after {:?}: the walls still to come are not counted",
+        start.elapsed()
+    );
+}
