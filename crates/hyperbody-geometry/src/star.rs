@@ -70,10 +70,13 @@ pub fn symbol(name: &str) -> Result<Vec<Fraction>> {
     let entry = |part: &str| {
         let (p, d) = part.split_once('/').unwrap_or((part, "1"));
         let (p, d): (u32, u32) = (p.trim().parse().ok()?, d.trim().parse().ok()?);
-        // {6/2} is two triangles, not one polygon.
-        (d >= 1 && p > 2 * d && p <= 100 && in_lowest_terms(p, d)).then_some((p, d))
+        (d >= 1 && p > 2 * d && p <= 100).then_some((p, d))
     };
-    inner.split(',').map(entry).collect::<Option<Vec<Fraction>>>().ok_or_else(|| {
+    let entries: Option<Vec<Fraction>> = inner.split(',').map(entry).collect();
+    if let Some(&(p, d)) = entries.iter().flatten().find(|&&(p, d)| !in_lowest_terms(p, d)) {
+        return Err(not_in_lowest_terms(name, p, d));
+    }
+    entries.ok_or_else(|| {
         let known: Vec<String> = NAMES.iter().map(|(name, symbol)| format!("{name} {symbol}")).collect();
         GeometryError::new(
             UnknownName,
@@ -83,6 +86,18 @@ pub fn symbol(name: &str) -> Result<Vec<Fraction>> {
             ),
         )
     })
+}
+
+/// {6/2} is two triangles, not one polygon.
+fn not_in_lowest_terms(name: &str, p: u32, d: u32) -> GeometryError {
+    let copies = (2..=d).rev().find(|n| p.is_multiple_of(*n) && d.is_multiple_of(*n)).unwrap_or(1);
+    let (p_each, d_each) = (p / copies, d / copies);
+    let each = if d_each == 1 { p_each.to_string() } else { format!("{p_each}/{d_each}") };
+    let message = format!(
+        "\"{name}\": {p}/{d} is not in lowest terms: {{{p}/{d}}} is {copies} polygons {{{each}}} turned against each other, a compound and no \
+         regular polytope; give {{{each}}}, or put turned copies of it into a \"compound\""
+    );
+    GeometryError::new(UnknownName, message)
 }
 
 fn in_lowest_terms(p: u32, d: u32) -> bool {

@@ -82,6 +82,12 @@ impl ShapeFile {
     #[must_use]
     pub fn hint(name: &str, others: &[&str]) -> String {
         if name.trim_start().starts_with('{') {
+            // {6/2} and the like are told what they are.
+            if let Some((_, what)) =
+                star::symbol(name).err().map(|e| e.to_string()).as_ref().and_then(|e| e.split_once("\": "))
+            {
+                return format!("; {what}");
+            }
             return "; a Schläfli symbol has numbers from 3 on, or fractions above 2 in lowest terms, with commas between them: \
                     {3,4,3}, {5/2,5}"
                 .to_owned();

@@ -222,7 +222,8 @@ fn what_cannot_be_cut_is_refused_with_the_reason() {
         ("tetrahedron", &[], "sections in 3D are those of 4 to 6"),
         ("simplex", &[], "does not tell its dimension"),
         ("600-cel", &[], "no regular polytope of that name; the nearest is \"600-cell\""),
-        ("{6/2}", &[], "fractions above 2 in lowest terms"),
+        ("{6/2}", &[], "{6/2} is 2 polygons {3} turned against each other"),
+        ("{5/3}", &[], "fractions above 2 in lowest terms"),
         (&path(&mesh), &[], "read from .off files"),
     ];
     for (shape, more, reason) in cases {

@@ -2,7 +2,7 @@
 //!
 //! Programs disagree about details that the header does not tell: whether the number of edges comes second or third
 //! among the counts, whether counts may be left out, and whether numbers after a face on its line are its colour or the
-//! next face. So a file is read in each of these ways, the usual one first, until one uses up exactly what is there. If none
+//! next face; and of vertices with colours, how many numbers a colour has. So a file is read in each of these ways, the usual one first, until one uses up exactly what is there. If none
 //! does, the error is that of the way that got farthest.
 
 use super::OffFile;
@@ -32,6 +32,25 @@ struct Convention {
     edges_second: bool,
     /// What follows an element on its line is a colour.
     colours: bool,
+    beside: Beside,
+}
+
+/// What follows the coordinates of a vertex and is passed over: its normal, colour and place in a picture.
+#[derive(Clone, Copy, PartialEq)]
+enum Beside {
+    /// So many numbers.
+    Numbers(usize),
+    /// All numbers that are left on the line.
+    RestOfLine,
+}
+
+/// What the first word of a file says.
+struct Header {
+    dimension: usize,
+    /// The first token after it.
+    body: usize,
+    /// The likeliest first.
+    beside: Vec<Beside>,
 }
 
 /// Reads a file in one of the OFF forms: see [`OffFile`].
@@ -40,9 +59,10 @@ struct Convention {
 /// `BadMesh` with the line number and the reason.
 pub fn parse(text: &str) -> Result<OffFile> {
     let tokens = tokens_of(text);
-    let (dimension, body) = header(&tokens).map_err(explain)?;
+    let header = header(&tokens).map_err(explain)?;
+    let (dimension, body) = (header.dimension, header.body);
     let mut farthest: Option<Fault> = None;
-    for convention in conventions(dimension, &tokens[body..]) {
+    for convention in conventions(&header, &tokens[body..]) {
         match (Reader { tokens: &tokens, next: body }).file(dimension, convention) {
             Ok(file) => return Ok(file),
             Err(fault) if farthest.as_ref().is_none_or(|best| fault.progress > best.progress) => farthest = Some(fault),
@@ -71,15 +91,28 @@ fn tokens_of(text: &str) -> Vec<Token<'_>> {
     tokens
 }
 
-/// The dimension, and the index of the first token after the header.
-fn header(tokens: &[Token<'_>]) -> std::result::Result<(usize, usize), Fault> {
+/// The word that a file begins with, as Geomview defines it: `[ST][C][N][n or the dimension]OFF`, for places in a picture, colours and
+/// normals of vertices. Programs for polytopes write NOFF for nOFF too, which shows in a line with the dimension alone.
+fn header(tokens: &[Token<'_>]) -> std::result::Result<Header, Fault> {
     let first = tokens.first().ok_or_else(|| end_of_file(tokens, "the word OFF, 4OFF or nOFF"))?;
-    let wrong = |token: &Token<'_>, message: String| Fault { line: token.line, message, progress: 0 };
+    let wrong = |token: &Token<'_>, message: String| Err(Fault { line: token.line, message, progress: 0 });
     let word = first.text.to_ascii_uppercase();
     let Some(prefix) = word.strip_suffix("OFF") else {
         let message =
             format!("\"{}\": the file must begin with OFF (3D), 4OFF, or nOFF with n = 2 to 6", cut(first.text));
-        return Err(wrong(first, message));
+        return wrong(first, message);
+    };
+    if let Some(token) = tokens.get(1).filter(|token| token.text.eq_ignore_ascii_case("BINARY")) {
+        return wrong(token, "the file is a binary one: save it as text, which programs also call ASCII".to_owned());
+    }
+    let (prefix, texture) = prefix.strip_prefix("ST").map_or((prefix, false), |rest| (rest, true));
+    let (prefix, colours) = prefix.strip_prefix('C').map_or((prefix, false), |rest| (rest, true));
+    let is_dimension = |token: &Token<'_>| matches!(token.text.parse(), Ok(2..=6_usize));
+    let alone = tokens.get(2).is_none_or(|third| tokens[1].line != third.line);
+    let named_so = first.text.contains('n') && prefix == "N" || alone && tokens.get(1).is_some_and(is_dimension);
+    let (prefix, normals) = match prefix.strip_prefix('N') {
+        Some(rest) if !(rest.is_empty() && named_so) => (rest, true),
+        _ => (prefix, false),
     };
     let (digits, token, body) = match prefix {
         "" => ("3", first, 1),
@@ -89,28 +122,29 @@ fn header(tokens: &[Token<'_>]) -> std::result::Result<(usize, usize), Fault> {
         }
         digits => (digits, first, 1),
     };
-    match digits.parse() {
-        Ok(dimension @ 2..=6) => Ok((dimension, body)),
-        _ => {
-            let message = format!(
-                "\"{}\": the dimension before OFF must be 2 to 6; forms with colours, normals or textures (COFF, NOFF, \
-                 STOFF) must be saved as plain OFF",
-                cut(token.text)
-            );
-            Err(wrong(token, message))
-        }
-    }
+    let Ok(dimension @ 2..=6) = digits.parse() else {
+        let message = format!("\"{}\": the dimension before OFF must be 2 to 6", cut(token.text));
+        return wrong(token, message);
+    };
+    let others = if normals { dimension } else { 0 } + if texture { 2 } else { 0 };
+    let beside = match (colours, others) {
+        (false, 0) => vec![Beside::Numbers(0)],
+        (false, _) => vec![Beside::RestOfLine, Beside::Numbers(others)],
+        (true, _) => vec![Beside::RestOfLine, Beside::Numbers(others + 4), Beside::Numbers(others + 3)],
+    };
+    Ok(Header { dimension, body, beside })
 }
 
 /// The ways to read a file whose first line of counts begins `body`, the likeliest first.
-fn conventions(dimension: usize, body: &[Token<'_>]) -> Vec<Convention> {
+fn conventions(header: &Header, body: &[Token<'_>]) -> Vec<Convention> {
+    let dimension = header.dimension;
     let most = dimension.max(3);
     let on_line = body.iter().take(most).take_while(|token| token.line == body[0].line).count();
     let mut list: Vec<Convention> = Vec::new();
-    for counts in [on_line, dimension, most] {
-        for edges_second in [false, true] {
-            for colours in [true, false] {
-                let convention = Convention { counts, edges_second, colours };
+    for &beside in &header.beside {
+        for counts in [on_line, dimension, most] {
+            for (edges_second, colours) in [(false, true), (false, false), (true, true), (true, false)] {
+                let convention = Convention { counts, edges_second, colours, beside };
                 if counts > 0 && !list.contains(&convention) {
                     list.push(convention);
                 }
@@ -138,6 +172,14 @@ impl<'a> Reader<'a> {
         for vertex in 0..vertex_count {
             for _ in 0..dimension {
                 vertices.push(self.coordinate(vertex)?);
+            }
+            match convention.beside {
+                Beside::RestOfLine => self.skip_line(),
+                Beside::Numbers(count) => {
+                    for _ in 0..count {
+                        self.coordinate(vertex)?;
+                    }
+                }
             }
         }
         // The number of edges is neither needed nor reliable. The others are those of ranks 2, 3, …

@@ -35,6 +35,43 @@ fn forms_that_programs_write_are_the_same_file() {
     }
 }
 
+/// Normals, colours and places in pictures of vertices are passed over, on lines of their own or not.
+#[test]
+fn vertices_with_colours_and_normals_are_read() {
+    let expected = off::parse(TETRAHEDRON).unwrap();
+    let with = |header: &str, beside: &str| {
+        let mut lines: Vec<String> = TETRAHEDRON.lines().map(str::to_owned).collect();
+        lines[0] = header.to_owned();
+        lines[2..6].iter_mut().for_each(|line| *line += beside);
+        lines.join("\n") + "\n"
+    };
+    for (header, beside) in [
+        ("COFF", " 255 0 0 255"),
+        ("COFF", " 0.5 0.25 1"),
+        ("COFF", " 17"),
+        ("NOFF", " 0 0.6 -0.8"),
+        ("STOFF", " 0.5 0.25"),
+        ("CNOFF", " 0 0 1 0.1 0.2 0.3 1"),
+        ("STCN3OFF", " 0 0 1 0.1 0.2 0.3 1 0.5 0.5"),
+        ("Cnoff 3", " 255 0 0 255"),
+        ("coff", " 255 0 0 255 # red"),
+    ] {
+        for text in [with(header, beside), with(header, beside).replace("3 0 1 2\n", "3 0 1 2 255 255 0\n")] {
+            assert_eq!(off::parse(&text).unwrap_or_else(|e| panic!("{e}: {text}")), expected, "{text}");
+        }
+        // All on one line, where a colour may have three or four numbers.
+        if !beside.contains('#') && beside != " 17" {
+            let text = with(header, beside).replace('\n', " ");
+            assert_eq!(off::parse(&text).unwrap_or_else(|e| panic!("{e}: {text}")), expected, "{text}");
+        }
+    }
+    // Programs for polytopes write it so.
+    for text in ["NOFF 3", "NOFF\n3", "noff\n3"].map(|header| TETRAHEDRON.replace("OFF", header)) {
+        assert_eq!(off::parse(&text).as_ref(), Ok(&expected), "{text}");
+    }
+    assert!(survives(&with("STCNOFF", " 0 0 1 0.1 0.2 0.3 1 0.5 0.5")));
+}
+
 #[test]
 fn vertices_only_mean_their_hull() {
     for counts in ["8 0 0", "8", "8 0", "8 0 12"] {
@@ -102,7 +139,10 @@ fn errors_give_the_line_and_the_reason() {
         ("", 1, "ends here"),
         ("# nothing\n", 1, "ends here"),
         ("PLY\n", 1, "must begin with OFF"),
-        ("COFF\n1 0 0\n", 1, "plain OFF"),
+        ("COFF\n1 0 0\n", 2, "announced"),
+        ("XOFF\n1 0 0\n", 1, "2 to 6"),
+        ("OFF BINARY\n4 4 6\n", 1, "save it as text"),
+        ("COFF\n1 0 0\n0 0 red 0 0 0\n", 3, "\"red\" is no coordinate"),
         ("7OFF\n1 0 0\n", 1, "2 to 6"),
         ("nOFF\n", 1, "the dimension"),
         ("OFF\n", 1, "ends here"),

@@ -214,6 +214,10 @@ fn names_lead_to_symbols_and_others_are_refused() {
     for bad in ["{2,3}", "{5/3}", "blob", "{}", "{5/0,3}", "{1e9}"] {
         assert_eq!(star::symbol(bad).unwrap_err().kind(), GeometryErrorKind::UnknownName, "{bad}");
     }
+    for (bad, parts) in [("{6/2}", "2 polygons {3}"), ("{10/4}", "2 polygons {5/2}"), ("{9/3,3}", "3 polygons {3}")] {
+        let error = star::symbol(bad).unwrap_err();
+        assert!(error.to_string().contains(parts) && error.to_string().contains("compound"), "{error}");
+    }
     // Flat, hyperbolic and endless.
     for bad in ["{4,4}", "{7,3}", "{5/2,7}", "{4,3,4}", "{7/2,3}"] {
         let error = star::surface(&star::symbol(bad).unwrap(), Size::Edge(1.0)).unwrap_err();

@@ -94,6 +94,9 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String> {
     if let Some((_, kind)) = OTHER_FILES.iter().find(|(first, _)| bytes.starts_with(first)) {
         return Err(refuse(format!("is {kind}, and no text; name a scene or a shape, a .json or .off file")));
     }
+    if bytes.split(|&byte| byte == b'\n').next().is_some_and(|line| line.trim_ascii().ends_with(b"OFF BINARY")) {
+        return Err(refuse("is a binary OFF file; save it as text, which programs also call ASCII".to_owned()));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = valid.iter().filter(|&&byte| byte == b'\n').count() + 1;
