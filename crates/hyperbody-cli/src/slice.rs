@@ -28,7 +28,7 @@ use project::Eye;
     The axes of the section are those of the shape after the shortest turn that takes its last axis to the normal: across \
     w, they are x, y and z; across −w the turn is half a turn in the plane xw, so that x points back. Faces keep the number of \
     the cell of a convex shape that they were cut from: as groups in .obj and as colours in .glb. Shapes that are not convex are \
-    cut as convex pieces: the file holds the walls between them too, and faces have numbers of cells of the pieces.")]
+    cut as convex pieces, without the walls on which they meet, and faces have numbers of cells of the pieces.")]
 pub(crate) struct SliceArguments {
     /// The shape: an OFF file, the shape of a scene as .json, or the name of a regular polytope of circumradius 1
     pub(crate) file: PathBuf,
@@ -141,7 +141,7 @@ fn tell(arguments: &SliceArguments, written: &Written) -> Result<(), Failure> {
         let also = if arguments.project {
             "their outlines may overlap, and volumes add up"
         } else {
-            "walls between them are faces of the file too"
+            "walls between them are left out where they lie on each other"
         };
         lines.push(("pieces", format!("{}: {also}", report.pieces)));
     }
@@ -313,6 +313,9 @@ fn surface(solids: Pieces<3>, cuts: usize, arguments: &SliceArguments) -> Result
         enclosed += within;
         pieces += 1;
         surface.add_polytope(&if exact { polytope } else { polytope.with_source(0) }, first_source);
+    }
+    if pieces > 1 {
+        surface = surface.without_walls();
     }
     check_written(&surface)?;
     Ok(Written { surface, volume, enclosed, pieces })

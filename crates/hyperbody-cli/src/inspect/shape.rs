@@ -92,8 +92,11 @@ pub(super) fn as_text(report: &Report, name: &str) -> String {
     }
     lines.push(("volume", format!("{} m^{}", number(report.volume), report.dimension)));
     lines.push(("centroid", format!("{} m", numbers(&report.centroid))));
-    lines.push(("principal moments", format!("{} m², per unit mass", numbers(&report.principal_moments))));
-    let inertia = "the moment of inertia in the plane of axes i and j is the sum of moments i and j, times the mass";
+    lines.push(("principal moments", format!("{} m²", numbers(&report.principal_moments))));
+    // J of the paper, and what most books do not mean by the word.
+    let meaning = "second moments J along the principal axes, ∫x² about the centroid, per unit mass";
+    lines.push(("", meaning.to_owned()));
+    let inertia = "the moment of inertia in the plane of axes i and j is (J_i + J_j) times the mass";
     lines.push(("", inertia.to_owned()));
     for (index, row) in report.second_moments.iter().enumerate() {
         lines.push((if index == 0 { "second moments" } else { "" }, numbers(row)));

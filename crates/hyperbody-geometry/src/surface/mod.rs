@@ -3,6 +3,7 @@
 
 mod glb;
 mod text;
+mod walls;
 
 use hyperbody_math::Vector;
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::common::Random;
 use hyperbody_geometry::regular::{Size, polytope};
-use hyperbody_geometry::{Shape, SliceFrame, Surface, off};
-use hyperbody_math::{Matrix, Vector};
+use hyperbody_geometry::{Polytope, Shape, SliceFrame, Surface, off, star};
+use hyperbody_math::{Matrix, Pose, Vector};
 
 /// Sections of polychora and of curved shapes, with their volumes.
 fn samples() -> Vec<(Surface, f64)> {
@@ -122,4 +122,81 @@ fn glb_files_have_the_lengths_that_they_say() {
         assert!((found / content - 1.0).abs() < 1e-5, "{found} for {content}");
     }
     assert_eq!(word(&Surface::new().to_glb(), 8), Surface::new().to_glb().len());
+}
+
+/// The middle of each polygon, its direction outward and its area.
+fn faces(surface: &Surface) -> Vec<(Vector<3>, Vector<3>, f64)> {
+    let face = |(corners, _): (&[u32], u32)| {
+        let at = |k: usize| surface.vertices()[corners[k] as usize];
+        let doubled = (1..corners.len() - 1).fold(Vector::ZERO, |sum, k| {
+            let (a, b) = (at(k) - at(0), at(k + 1) - at(0));
+            sum + Vector([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+        });
+        let middle = (0..corners.len()).fold(Vector::ZERO, |sum, k| sum + at(k)) / corners.len() as f64;
+        (middle, doubled.normalize_or_zero(), 0.5 * doubled.norm())
+    };
+    surface.polygons().map(face).collect()
+}
+
+/// The section of a shape of pieces with all walls, and without.
+fn with_and_without_walls(shape: &Shape<4>, frame: &SliceFrame<4>) -> [Surface; 2] {
+    let mut surface = Surface::new();
+    for solid in shape.solids().iter().filter_map(|solid| solid.section::<3>(frame)) {
+        surface.add_solid(&solid, 1e-2, 0).unwrap();
+    }
+    let open = surface.without_walls();
+    [surface, open]
+}
+
+#[test]
+fn walls_between_pieces_are_no_surface() {
+    let mut random = Random(91);
+    // A box with a smaller one on it, which covers a quarter of its top.
+    let large = (Pose::IDENTITY, Shape::<4>::cuboid([1.0, 0.5, 0.5, 1.0]).unwrap());
+    let small = (Pose::from_translation(Vector([0.3, 1.0, 0.0, 0.2])), Shape::cuboid([0.25, 0.5, 0.25, 1.0]).unwrap());
+    let pose = Pose::new(random.rotation(), random.vector());
+    let turned = [&large, &small].map(|(own, shape)| (pose * *own, shape.clone()));
+    let turned = Shape::compound(turned.to_vec()).unwrap();
+    let shape = Shape::compound(vec![large, small]).unwrap();
+    let [closed, open] = with_and_without_walls(&shape, &SliceFrame::from_normal([0.0, 0.0, 0.0, 1.0], 0.1).unwrap());
+    let area = |surface: &Surface| faces(surface).iter().map(|face| face.2).sum::<f64>();
+    assert!((area(&closed) - area(&open) - 0.5).abs() < 1e-12, "{} {}", area(&closed), area(&open));
+    assert!((area(&open) - (10.0 + 4.0 * 0.5)).abs() < 1e-12, "{}", area(&open));
+    assert_eq!(
+        (closed.polygon_count(), open.polygon_count()),
+        (12, 14),
+        "the top is four polygons around the small box"
+    );
+    // In any direction the walls lie on each other to rounding.
+    for _ in 0..5 {
+        let frame = SliceFrame::from_normal(random.direction::<4>(), 0.1 * random.symmetric()).unwrap();
+        let [closed, open] = with_and_without_walls(&turned, &frame);
+        let triangles =
+            |surface: &Surface| volume(surface.triangles().map(|(t, _)| t.map(|c| surface.vertices()[c as usize])));
+        assert!((triangles(&closed) - triangles(&open)).abs() < 1e-9);
+        assert!(area(&open) <= area(&closed));
+    }
+}
+
+/// Just outside of each face there is no cell, and just inside there is one.
+#[test]
+fn sections_of_stars_are_their_outside() {
+    let cells: Vec<Polytope<4>> =
+        star::cells(&star::symbol("{5/2,5,3}").unwrap(), Size::Circumradius(1.0), 200).unwrap();
+    let place = |cell: &Polytope<4>| (Pose::IDENTITY, Shape::polytope(cell.clone().into()).unwrap());
+    let shape = Shape::compound(cells.iter().map(place).collect()).unwrap();
+    let mut random = Random(92);
+    for offset in [0.05, 0.3] {
+        let frame = SliceFrame::from_normal(random.direction::<4>(), offset).unwrap();
+        let [closed, open] = with_and_without_walls(&shape, &frame);
+        let holds = |point: Vector<3>| {
+            let point = frame.space_from_slice().transform_point(Vector([point[0], point[1], point[2], 0.0]));
+            cells.iter().any(|cell| cell.facets().iter().all(|f| f.normal.dot(point) <= f.offset))
+        };
+        for (middle, outward, area) in faces(&open).into_iter().filter(|face| face.2 > 1e-6) {
+            assert!(!holds(middle + outward * 1e-6) && holds(middle - outward * 1e-6), "{middle:?}, {area} m²");
+        }
+        println!("{} polygons, {} without walls", closed.polygon_count(), open.polygon_count());
+        assert!(open.polygon_count() < closed.polygon_count());
+    }
 }
