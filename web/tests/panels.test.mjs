@@ -81,7 +81,7 @@ test("a scene travels in a link", async () => {
 test("scrubbing shows an earlier moment, and running goes on from there", async () => {
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });
-  await until(page, () => window.hyperbody.frame.history.seconds > 1.5, null, 30_000);
+  await until(page, () => window.hyperbody.frame.history.seconds > 1.5);
   const time = await page.getByTestId("scrub").evaluate((slider) => {
     slider.value = "-1";
     slider.dispatchEvent(new Event("input", { bubbles: true }));
@@ -123,9 +123,17 @@ test("what was started again, or left for another scene, comes back by undo; the
   const bodies = await page.evaluate(() => window.hyperbody.scene.bodies.length);
   await page.locator("[data-shape=ball]").click();
   await isThere(bodies + 1);
+  // A key that is easily hit: the words that say what it did bring back what was.
   await page.keyboard.press("Backspace");
   await isThere(bodies);
-  await page.keyboard.press("Control+z");
+  const wayBack = page.locator(".notice").filter({ hasText: "Started again" }).getByRole("button", { name: "Undo" });
+  await wayBack.click();
+  await isThere(bodies + 1);
+  await wayBack.waitFor({ state: "detached" });
+  await page.keyboard.press("p");
+  await page.keyboard.press("Delete");
+  await isThere(bodies);
+  await page.locator(".notice").filter({ hasText: "Deleted “Ball”" }).getByRole("button", { name: "Undo" }).click();
   await isThere(bodies + 1);
   // From there a new start is that of the scene, not of the moment that came back.
   await page.keyboard.press("Backspace");
@@ -217,7 +225,7 @@ test("started again, the scene keeps its slice, its gravity and what is selected
 test("arrows move the slider that has the focus, and not the world", async () => {
   const context = await browser.newContext(DESKTOP);
   const { page } = await open(context, server.address, { scene: "hello4d" });
-  await until(page, () => window.hyperbody.frame.history.seconds > 1, null, 30_000);
+  await until(page, () => window.hyperbody.frame.history.seconds > 1);
   await page.getByTestId("scrub").focus();
   for (let k = 0; k < 5; k++) await page.keyboard.press("ArrowLeft");
   await until(page, () => window.hyperbody.frame.history.secondsBack > 0.01 && window.hyperbody.frame.paused);

@@ -46,6 +46,12 @@ export interface Load {
   moment?: string;
 }
 
+/** Words that come and go; after something that is easily done by mistake, with a way back. */
+export interface Notice {
+  text: string;
+  undo: boolean;
+}
+
 /** What the panels show of a frame. */
 export interface Readout {
   time: number;
@@ -75,7 +81,7 @@ export class Playground {
   usualSpeed = 1;
   readonly gravity = signal<readonly number[]>([]);
   readonly flatland = signal(false);
-  readonly notice = signal<string | null>(null);
+  readonly notice = signal<Notice | null>(null);
   /** Why nothing runs: the engine cannot start here, or has stopped too often. */
   readonly failure = signal<{ kind: "start" | "stopped"; message: string } | null>(null);
   /** The text of a scene that keeps stopping the engine: it is not lost. */
@@ -162,8 +168,9 @@ export class Playground {
   }
 
   /** The scene from its start; slice, camera and choices stay. */
-  reset(): void {
-    if (this.running) void this.attempt(this.replace({ ...this.running, again: true, moment: undefined }));
+  async reset(): Promise<void> {
+    if (!this.running) return;
+    await this.attempt(this.replace({ ...this.running, again: true, moment: undefined }).then(() => this.say(t().startedAgain, true)));
   }
 
   /** The running scene as it is now, to come back to. */
@@ -321,9 +328,10 @@ export class Playground {
     this.slice.moveTo(offset, j);
   }
 
-  remove(body: number): void {
-    void this.attempt(this.client.request("remove", { body }));
+  async remove(body: number): Promise<void> {
+    const name = this.body(body)?.name ?? "";
     if (this.selected.value === body) this.select(null);
+    if (await this.attempt(this.client.request("remove", { body }))) this.say(t().forgotten(name), true);
   }
 
   freeze(body: number, on: boolean): void {
@@ -393,8 +401,8 @@ export class Playground {
     return { x: box.left + ((inPicture.x + 1) / 2) * box.width, y: box.top + ((1 - inPicture.y) / 2) * box.height };
   }
 
-  say(text: string): void {
-    this.notice.value = text;
+  say(text: string, undo = false): void {
+    this.notice.value = { text, undo };
   }
 
   /** The world point of a body's centre in the latest frame. */
@@ -495,6 +503,8 @@ export class Playground {
     }
     this.stage.setPickSurface(frame.surface);
     this.hands.agree(frame.hands);
+    // Undo would take back what is done now, and not what the words are about.
+    if (this.notice.value?.undo && frame.hands.length > 0) this.notice.value = null;
     tellAll(this.onFrame, frame);
   }
 

@@ -27,6 +27,7 @@ export const en = {
   stepOnce: "One step",
   slow: "Slow motion",
   reset: "Start again",
+  startedAgain: "Started again",
   undo: "Undo",
   scrub: "Back through the last seconds",
   now: "now",

@@ -29,6 +29,7 @@ export const zh: Words = {
   stepOnce: "单步",
   slow: "慢动作",
   reset: "重新开始",
+  startedAgain: "已重新开始",
   undo: "撤销",
   scrub: "回看最近几秒",
   now: "此刻",

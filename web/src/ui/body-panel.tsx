@@ -33,7 +33,7 @@ export function BodyPanel() {
         <IconButton icon="target" label={t().goThere} onPress={() => playground.goTo(id)} />
         <IconButton icon="follow" label={following ? t().unfollow : t().follow} pressed={following} onPress={() => (playground.followed.value = following ? null : id)} />
         <IconButton icon="freeze" label={selected.frozen ? t().thaw : t().freeze} pressed={selected.frozen} onPress={() => playground.freeze(id, !selected.frozen)} />
-        <IconButton icon="trash" label={t().remove} onPress={() => playground.remove(id)} />
+        <IconButton icon="trash" label={t().remove} onPress={() => void playground.remove(id)} />
       </div>
       {bodyOpen.value && (
         <div class="numbers">

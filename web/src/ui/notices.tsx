@@ -6,17 +6,28 @@ import { IconButton } from "./icons";
 import { menu } from "./state";
 
 const NOTICE_MS = 4200;
+/** With a way back it stays long enough to be reached. */
+const UNDO_MS = 9000;
 const MENU_SIZE = { width: 230, height: 220 };
 
 export function Notice() {
   const playground = usePlayground();
-  const text = playground.notice.value;
+  const notice = playground.notice.value;
   useEffect(() => {
-    if (!text) return;
-    const timer = setTimeout(() => (playground.notice.value = null), NOTICE_MS);
+    if (!notice) return;
+    const timer = setTimeout(() => (playground.notice.value = null), notice.undo ? UNDO_MS : NOTICE_MS);
     return () => clearTimeout(timer);
-  }, [text, playground]);
-  return <div class="notice-place" role="status" aria-live="polite">{text && <p class="notice glass">{text}</p>}</div>;
+  }, [notice, playground]);
+  return (
+    <div class="notice-place" role="status" aria-live="polite">
+      {notice && (
+        <p class="notice glass">
+          {notice.text}
+          {notice.undo && <IconButton icon="undo" text label={t().undo} onPress={() => void playground.undo()} />}
+        </p>
+      )}
+    </div>
+  );
 }
 
 export function BodyMenu() {
@@ -37,7 +48,7 @@ export function BodyMenu() {
       <IconButton icon="target" text label={t().goThere} onPress={choose(() => playground.goTo(body))} />
       <IconButton icon="follow" text label={following ? t().unfollow : t().follow} onPress={choose(() => (playground.followed.value = following ? null : body))} />
       <IconButton icon="freeze" text label={frozen ? t().thaw : t().freeze} onPress={choose(() => playground.freeze(body, !frozen))} />
-      <IconButton icon="trash" text label={t().remove} onPress={choose(() => playground.remove(body))} />
+      <IconButton icon="trash" text label={t().remove} onPress={choose(() => void playground.remove(body))} />
     </div>
   );
 }

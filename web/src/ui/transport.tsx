@@ -14,7 +14,7 @@ export function Transport() {
   return (
     <section class="transport glass" aria-label={t().play}>
       <IconButton icon="undo" label={t().undo} disabled={!playground.canUndo} onPress={() => void playground.undo()} />
-      <IconButton icon="reset" label={t().reset} onPress={() => playground.reset()} />
+      <IconButton icon="reset" label={t().reset} onPress={() => void playground.reset()} />
       <IconButton icon={paused ? "play" : "pause"} kind="primary" label={paused ? t().play : t().pause} onPress={() => playground.togglePaused()} />
       <IconButton icon="step" label={t().stepOnce} onPress={() => playground.stepOnce()} />
       <IconButton icon="slow" label={t().slow} pressed={slow} onPress={() => playground.setSpeed(slow ? 1 : SLOW_FACTOR)} />

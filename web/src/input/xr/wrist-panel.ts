@@ -72,11 +72,11 @@ export class WristPanel {
       { label: () => words().slow, pressed: () => playground.speed.value < 1, act: () => playground.setSpeed(playground.speed.value < 1 ? 1 : SLOW_FACTOR) },
       { label: () => words().back, pressed: never, act: () => this.goBack() },
       { label: () => words().undo, pressed: never, act: () => void playground.undo() },
-      { label: () => words().reset, pressed: never, act: () => playground.reset() },
+      { label: () => words().reset, pressed: never, act: () => void playground.reset() },
       { label: () => words().add, pressed: never, act: () => (this.adding = true) },
       { label: () => words().goThere, pressed: never, act: selected((body) => playground.goTo(body)) },
       { label: () => words().freeze, pressed: frozen, act: selected((body) => playground.freeze(body, !frozen())) },
-      { label: () => words().remove, pressed: never, act: selected((body) => playground.remove(body)) },
+      { label: () => words().remove, pressed: never, act: selected((body) => void playground.remove(body)) },
       { label: () => words().home, pressed: never, act: () => slice.home() },
       { label: () => words().snap, pressed: never, act: () => slice.snap() },
       {
@@ -132,7 +132,7 @@ export class WristPanel {
   /** What the page says just now; else the body that was touched last, and how fast it goes. */
   private told(): string {
     const { notice, readout, paused } = this.playground;
-    if (notice.value) return notice.value;
+    if (notice.value) return notice.value.text;
     const share = readout.value?.slowdown ?? 1;
     if (!paused.value && share < SLOW_SHARE) return t().tooSlow((100 * share).toFixed(0));
     const body = this.playground.readout.value?.selected;
