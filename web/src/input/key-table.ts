@@ -1,5 +1,5 @@
-// Which keys do what, as the sheet of shortcuts shows it. The keys themselves are handled in keyboard.ts; both name letters by
-// their place on an English keyboard, and the sheet says what is written there on the one at hand.
+// Which keys do what, as the sheet of shortcuts shows it. The keys themselves are handled in keyboard.ts: letters are those that
+// are printed on the keys, on every keyboard.
 import type { Words } from "../i18n/en";
 
 type KeyWords = keyof Words["keys"];

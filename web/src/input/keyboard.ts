@@ -1,5 +1,5 @@
-// The keyboard: everything that hands can do. Keys that are held set speeds, keys that are pressed act once. Letters are known
-// by their place (`code`), so that they lie together on every layout; signs, and the Z of Ctrl+Z, by what they write.
+// The keyboard: everything that hands can do. Keys that are held set speeds, keys that are pressed act once. Letters and signs
+// are known by what they write, as the sheet of shortcuts shows them; digits, and letters of other scripts, by their place.
 import { Vector3 } from "three";
 import { HAND } from "../app/hand-control";
 import type { Playground } from "../app/playground";
@@ -21,13 +21,20 @@ const TURN_KEYS: Record<string, [number, number]> = { KeyR: [0, 1], KeyF: [0, -1
 const CARRY_KEYS: Record<string, [number, number, number]> = {
   KeyL: [1, 0, 0], KeyJ: [-1, 0, 0], KeyI: [0, 1, 0], KeyK: [0, -1, 0], KeyO: [0, 0, 1], KeyU: [0, 0, -1],
 };
-/** Signs are known by what the key writes, wherever it lies. */
-const SIGNS: Record<string, string> = { "+": "Equal", "-": "Minus", "[": "BracketLeft", "]": "BracketRight" };
+/** The keys of an English keyboard that write these, which is what keys are called here. */
+const SIGNS: Record<string, string> = { "+": "Equal", "-": "Minus", "[": "BracketLeft", "]": "BracketRight", ".": "Period", ",": "Comma" };
+
+/** What a key is called: by what it writes where that has a name, or else by its place. */
+function nameOf({ key, code }: KeyboardEvent): string {
+  return /^[a-z]$/i.test(key) ? `Key${key.toUpperCase()}` : (SIGNS[key] ?? code);
+}
 const ARROWS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class KeyboardInput {
-  /** Keys that are down, by their place, and the place that they stand for. */
+  /** Keys that are down, by their place, with their names. */
   private readonly held = new Map<string, string>();
+  /** Places of keys that were let go since the last picture: a short press on a slow machine is not lost. */
+  private readonly leaving = new Set<string>();
   private alt = false;
   private shift = false;
   private readonly scrubbing = { at: 0, back: 0 };
@@ -41,18 +48,20 @@ export class KeyboardInput {
 
   private down(event: KeyboardEvent): void {
     [this.alt, this.shift] = [event.altKey, event.shiftKey];
-    if (isTyping(event.target) || belongsToControl(event)) return;
+    const name = nameOf(event);
+    if (isTyping(event.target) || belongsToControl(event, name)) return;
     if (event.ctrlKey || event.metaKey) {
       if (event.key.toLowerCase() === "z") this.act(event, () => void this.playground.undo());
       return;
     }
-    const single = event.repeat ? undefined : this.singleKey(event);
+    const single = event.repeat ? undefined : this.singleKey(event, name);
     if (single) {
       this.act(event, single);
       return;
     }
-    this.held.set(event.code, SIGNS[event.key] ?? event.code);
-    if (event.altKey || event.code in ARROWS) event.preventDefault();
+    this.held.set(event.code, name);
+    this.leaving.delete(event.code);
+    if (event.altKey || name in ARROWS) event.preventDefault();
   }
 
   private act(event: KeyboardEvent, action: () => void): void {
@@ -60,15 +69,15 @@ export class KeyboardInput {
     action();
   }
 
-  private singleKey(event: KeyboardEvent): (() => void) | undefined {
+  private singleKey(event: KeyboardEvent, name: string): (() => void) | undefined {
     const { playground } = this;
     const { slice } = playground;
     const selected = playground.selected.value;
     if (event.altKey) return undefined;
     if (event.key === "?") return () => toggleSheet("help");
-    if (event.shiftKey && event.code in TURN_KEYS) return () => this.quarter(...TURN_KEYS[event.code]);
-    if (event.shiftKey && (event.code === "KeyE" || event.code === "KeyQ")) return () => this.goToNeighbour(event.code === "KeyE" ? 1 : -1);
-    if (event.code === "Space" && event.target instanceof HTMLButtonElement) return undefined; // Space presses the button.
+    if (event.shiftKey && name in TURN_KEYS) return () => this.quarter(...TURN_KEYS[name]);
+    if (event.shiftKey && (name === "KeyE" || name === "KeyQ")) return () => this.goToNeighbour(name === "KeyE" ? 1 : -1);
+    if (name === "Space" && event.target instanceof HTMLButtonElement) return undefined; // Space presses the button.
     const actions: Record<string, () => void> = {
       Space: () => playground.togglePaused(),
       Period: () => playground.stepOnce(),
@@ -93,7 +102,7 @@ export class KeyboardInput {
       KeyX: () => toggleSheet("editor"),
       Escape: () => this.escape(),
     };
-    return actions[event.code];
+    return actions[name];
   }
 
   private escape(): void {
@@ -131,7 +140,7 @@ export class KeyboardInput {
 
   private up(event: KeyboardEvent): void {
     [this.alt, this.shift] = [event.altKey, event.shiftKey];
-    this.held.delete(event.code);
+    this.leaving.add(event.code);
     if (event.key === "Alt") this.playground.hands.release(HAND.keyboard);
   }
 
@@ -141,9 +150,15 @@ export class KeyboardInput {
   }
 
   private update(seconds: number): void {
+    this.move(seconds, new Set(this.held.values()));
+    for (const place of this.leaving) this.held.delete(place);
+    this.leaving.clear();
+  }
+
+  /** What the keys of these names, which are held, do in so many seconds. */
+  private move(seconds: number, names: ReadonlySet<string>): void {
     const { slice, stage } = this.playground;
-    const places = new Set(this.held.values());
-    const is = (code: string) => (places.has(code) ? 1 : 0);
+    const is = (name: string) => (names.has(name) ? 1 : 0);
     const along = is("KeyE") - is("KeyQ");
     const free = !this.alt && !this.shift;
     if (slice.offCount > 0) {
@@ -155,7 +170,7 @@ export class KeyboardInput {
     }
     if (along !== 0 && free) this.playground.followed.value = null;
     if (this.alt) {
-      this.carry(seconds, along);
+      this.carry(seconds, along, names);
       return;
     }
     for (const [code, [x, y]] of Object.entries(ARROWS)) if (is(code)) stage.orbit.orbit(-x * ORBIT_SPEED * seconds, -y * ORBIT_SPEED * seconds);
@@ -176,11 +191,11 @@ export class KeyboardInput {
   }
 
   /** Alt and keys move the selected body with a hand of the keyboard's own, which grabs it when first needed. */
-  private carry(seconds: number, along: number): void {
+  private carry(seconds: number, along: number, names: ReadonlySet<string>): void {
     const { hands, stage } = this.playground;
     const body = this.playground.selected.value;
-    const carrying = Object.entries(CARRY_KEYS).filter(([code]) => this.held.has(code));
-    const turning = Object.entries(ARROWS).filter(([code]) => this.held.has(code));
+    const carrying = Object.entries(CARRY_KEYS).filter(([name]) => names.has(name));
+    const turning = Object.entries(ARROWS).filter(([name]) => names.has(name));
     if (body === null || (carrying.length === 0 && turning.length === 0 && along === 0)) return;
     if (hands.holds(HAND.keyboard) !== body) {
       const centre = this.playground.centre(body);
@@ -211,8 +226,8 @@ export class KeyboardInput {
 const CONTROL_KEYS = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"]);
 const SHEET_KEYS = new Set(["Escape", "KeyC", "KeyX", "Slash"]);
 
-function belongsToControl(event: KeyboardEvent): boolean {
-  if (sheet.value !== null) return !SHEET_KEYS.has(event.code) && event.key !== "?";
+function belongsToControl(event: KeyboardEvent, name: string): boolean {
+  if (sheet.value !== null) return !SHEET_KEYS.has(name) && event.key !== "?";
   if (!(event.target instanceof HTMLElement)) return false;
   return CONTROL_KEYS.has(event.code) && event.target.matches("input, select, [role=slider], [role=radio]");
 }
