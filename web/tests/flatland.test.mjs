@@ -1,7 +1,7 @@
 // Flatland's picture: coloured is what the plane cuts, and nothing of what lies behind it, in whatever order surfaces are drawn.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { DESKTOP, launch, open, serve, until } from "./support.mjs";
+import { DESKTOP, launch, open, pictures, serve, until } from "./support.mjs";
 
 /** Places that are looked at, across and down. */
 const [COLUMNS, ROWS] = [22, 18];
@@ -34,10 +34,10 @@ for (const scene of ["flatland_pile3d", "flatland_solids3d"]) {
   test(`the cut of ${scene} is where the pointer finds bodies`, async () => {
     const context = await browser.newContext(DESKTOP);
     const { page, errors } = await open(context, server.address, { scene, query: "&detail=1" });
-    await until(page, () => window.hyperbody.frame.time > 1.5, null, 30_000);
+    await until(page, () => window.hyperbody.frame.time > 1.5);
     await page.keyboard.press("Space");
     await until(page, () => window.hyperbody.frame.paused);
-    await page.waitForTimeout(500);
+    await pictures(page, 10);
     const inset = await page.locator(".flatland").boundingBox();
     const places = Array.from({ length: COLUMNS * ROWS }, (_, k) => [
       Math.round(inset.x + (inset.width * ((k % COLUMNS) + 0.5)) / COLUMNS), Math.round(inset.y + (inset.height * (Math.floor(k / COLUMNS) + 0.5)) / (ROWS + 2)),

@@ -18,7 +18,7 @@ after(async () => {
   rmSync(folder, { recursive: true });
 });
 
-const controlled = (page) => until(page, () => navigator.serviceWorker.controller?.state === "activated", null, 60_000);
+const controlled = (page) => until(page, () => navigator.serviceWorker.controller?.state === "activated");
 
 test("the page runs from any folder, without its server once loaded, and an update arrives", async () => {
   const worker = join(folder, "play/sw.js");
@@ -40,7 +40,7 @@ test("the page runs from any folder, without its server once loaded, and an upda
   await controlled(page);
   server.close();
   await page.reload();
-  await until(page, () => (window.hyperbody?.frame?.number ?? 0) > 2, null, 30_000);
+  await until(page, () => (window.hyperbody?.frame?.number ?? 0) > 2);
   assert.equal(await page.title(), "Newer");
   // One of the page's own scenes, which come in files of their own.
   await page.keyboard.press("c");

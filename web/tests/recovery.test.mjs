@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { deflateRawSync } from "node:zlib";
-import { DESKTOP, launch, open, serve, until } from "./support.mjs";
+import { DESKTOP, launch, open, pictures, serve, until } from "./support.mjs";
 
 let browser, server;
 before(async () => ([browser, server] = await Promise.all([launch(), serve()])));
@@ -23,10 +23,12 @@ const stopEngine = (worker) => worker.evaluate(() => self.dispatchEvent(new Mess
 test("an engine that stops is started again with its scene, and says so", async () => {
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });
-  await until(page, () => window.hyperbody.frame.step > 40);
+  await until(page, () => window.hyperbody.frame.step > 200);
+  // What lasts only for seconds is waited for from before it begins.
+  const told = page.getByText("was started again").waitFor();
+  const anew = until(page, () => window.hyperbody.sceneName === "hello4d" && window.hyperbody.frame.step < 200);
   await stopEngine(page.workers()[0]);
-  await page.getByText("was started again").waitFor();
-  await until(page, () => window.hyperbody.sceneName === "hello4d" && window.hyperbody.frame.step < 30);
+  await Promise.all([told, anew]);
   const step = await page.evaluate(() => window.hyperbody.frame.step);
   await until(page, (before) => window.hyperbody.frame.step > before + 20, step);
   assert.equal(page.workers().length, 1, "the worker that stopped is still there");
@@ -42,8 +44,9 @@ test("a scene that always stops the engine gives way to another, and its text st
   for (let times = 1; times <= 2; times++) {
     await until(page, () => window.hyperbody.scene?.title === "Breaker");
     const workers = page.workers();
+    const told = page.getByText(times === 1 ? "was started again" : "another one runs now").waitFor();
     await stopEngine(workers[workers.length - 1]);
-    await page.getByText(times === 1 ? "was started again" : "another one runs now").waitFor();
+    await told;
   }
   await until(page, () => window.hyperbody.sceneName === "dice4d");
   await page.keyboard.press("x");
@@ -53,8 +56,9 @@ test("a scene that always stops the engine gives way to another, and its text st
   for (let times = 3; times <= 4; times++) {
     await until(page, () => window.hyperbody.frame.step > 3);
     const workers = page.workers();
+    const told = times === 3 && page.getByText("was started again").waitFor();
     await stopEngine(workers[workers.length - 1]);
-    if (times === 3) await page.getByText("was started again").waitFor();
+    await told;
   }
   await page.getByRole("button", { name: "Start the engine again" }).click();
   await until(page, () => document.querySelector(".failure") === null && window.hyperbody.frame.step > 3);
@@ -113,7 +117,7 @@ test("of two scenes asked for one after the other the later one runs, however sl
   await until(page, () => window.hyperbody.sceneName === "pyramid3d");
   letThrough();
   await page.waitForResponse(/smash4d.*js/);
-  await page.waitForTimeout(400);
+  await pictures(page, 20);
   assert.equal(await page.evaluate(() => window.hyperbody.sceneName), "pyramid3d");
   assert.equal(await page.evaluate(() => window.hyperbody.scene.dimension), 3);
   assert.deepEqual(errors, []);
@@ -128,13 +132,13 @@ test("a page that nobody sees does not simulate, and goes on where it was", asyn
     document.dispatchEvent(new Event("visibilitychange"));
   }, hidden);
   await hide(true);
-  await page.waitForTimeout(300);
   const step = await page.evaluate(async () => (await window.hyperbody.hash()).step);
-  await page.waitForTimeout(600);
+  await page.waitForTimeout(3000);
   assert.equal(await page.evaluate(async () => (await window.hyperbody.hash()).step), step);
   await hide(false);
-  await until(page, (before) => window.hyperbody.frame.step > before, step);
-  const after = await page.evaluate(() => window.hyperbody.frame.step);
-  assert.ok(after < step + 20, `it made up for ${after - step} steps`);
+  // A second late at most on a busy machine; what it missed are three.
+  const first = await until(page, (before) => window.hyperbody.frame.step > before && window.hyperbody.frame.step, step);
+  const after = await first.jsonValue();
+  assert.ok(after < step + 60, `it made up for ${after - step} steps`);
   await context.close();
 });

@@ -105,10 +105,10 @@ test("what `--export` writes runs from another server, and without one once it i
     execFileSync(program, ["play", "--export", join(folder, "site")], { timeout: 60_000, stdio: "pipe" });
     const server = await serve(`${folder}/`);
     const { page, errors } = await open(context, `${server.address}site/`, { scene: "hello4d" });
-    await until(page, () => navigator.serviceWorker.controller?.state === "activated", null, 60_000);
+    await until(page, () => navigator.serviceWorker.controller?.state === "activated");
     server.close();
     await page.reload();
-    await until(page, () => (window.hyperbody?.frame?.number ?? 0) > 2, null, 30_000);
+    await until(page, () => (window.hyperbody?.frame?.number ?? 0) > 2);
     await page.keyboard.press("c");
     await page.locator("[data-scene=dice4d]").click();
     await until(page, () => window.hyperbody.sceneName === "dice4d" && window.hyperbody.frame.surface.positions.length > 0);
@@ -128,13 +128,13 @@ test("a second visit is told that nothing has changed, and no worker of the page
   session.on("Network.responseReceivedExtraInfo", ({ requestId, statusCode }) => answers.set(requestId, { ...answers.get(requestId), statusCode }));
   session.on("Network.requestWillBeSent", ({ requestId, request }) => answers.set(requestId, { ...answers.get(requestId), path: request.url.replace(address, "/") }));
   await page.reload();
-  await until(page, () => (window.hyperbody?.frame?.number ?? 0) > 2, null, 30_000);
+  await until(page, () => (window.hyperbody?.frame?.number ?? 0) > 2);
   const seen = [...answers.values()].filter(({ statusCode, path }) => statusCode && path?.startsWith("/"));
   const told = seen.map(({ path, statusCode }) => `${path} ${statusCode}`).join(", ");
   t.diagnostic(`asked for again: ${told}`);
   assert.ok(seen.some(({ path, statusCode }) => path.startsWith("/?") && statusCode === 304), told);
   assert.deepEqual(seen.filter(({ statusCode }) => statusCode === 200).map(({ path }) => path), []);
-  await page.waitForFunction(async () => (await navigator.serviceWorker.getRegistrations()).length === 0 && (await caches.keys()).length === 0, null, { timeout: 15_000 });
+  await page.waitForFunction(async () => (await navigator.serviceWorker.getRegistrations()).length === 0 && (await caches.keys()).length === 0);
   assert.deepEqual(errors, []);
   await context.close();
 });

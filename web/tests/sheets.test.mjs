@@ -47,8 +47,9 @@ test("kept scenes: none is lost to another tab or to an equal name, and a file t
   const [one, two] = [await open(context, server.address, { scene: "hello4d" }), await open(context, server.address, { scene: "hello4d" })];
   const keep = async ({ page }, text) => {
     if (!(await page.getByTestId("editor-text").isVisible())) await page.keyboard.press("x");
+    await page.getByTestId("editor-text").fill("");
     await page.getByRole("button", { name: "Take the running scene" }).click();
-    await page.waitForTimeout(200);
+    await until(page, () => document.querySelector("[data-testid=editor-text]").value.includes("tesseract"));
     await page.getByTestId("editor-text").fill(text);
     await page.getByRole("button", { name: "Save here" }).click();
     await page.getByText("is kept in this browser").waitFor();

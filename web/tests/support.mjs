@@ -41,11 +41,12 @@ export function launch() {
 /** Opens the page with a scene running; `errors` collects all that the console calls an error. */
 export async function open(context, address, { scene, query = "", ready = true } = {}) {
   const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE_MS);
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(error.message));
   await page.goto(`${address}?${scene ? `scene=${scene}` : ""}${query}`);
-  if (ready) await page.waitForFunction(() => (window.hyperbody?.frame?.number ?? 0) > 2, null, { timeout: 30_000 });
+  if (ready) await page.waitForFunction(() => (window.hyperbody?.frame?.number ?? 0) > 2, null, { timeout: PATIENCE_MS });
   return { page, errors };
 }
 
@@ -55,8 +56,16 @@ const NOTHING_KEPT = { serviceWorkers: "block" };
 export const DESKTOP = { viewport: { width: 900, height: 600 }, locale: "en-GB", ...NOTHING_KEPT };
 export const PHONE = { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, locale: "en-GB", ...NOTHING_KEPT };
 
+/** Longest wait for anything that has to come, ms: only what never comes takes so long, however busy the machine is. */
+const PATIENCE_MS = 60_000;
+
 /** Waits until a function of the page answers something true. */
-export const until = (page, test, argument, timeout = 15_000) => page.waitForFunction(test, argument, { timeout });
+export const until = (page, test, argument, timeout = PATIENCE_MS) => page.waitForFunction(test, argument, { timeout });
+
+/** Waits until so many pictures have been drawn, which is how the page takes notice of hands, and draws what is switched. */
+export const pictures = (page, count) => page.evaluate(async (wanted) => {
+  for (let k = 0; k < wanted; k++) await new Promise((resolve) => requestAnimationFrame(resolve));
+}, count);
 
 /** Coordinates of a body, in the world: [slice point…, off…] of the newest frame. */
 export const centreOf = (page, body) => page.evaluate((id) => {

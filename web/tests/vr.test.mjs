@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
-import { DESKTOP, idOf, launch, open, serve, until } from "./support.mjs";
+import { DESKTOP, idOf, launch, open, pictures, serve, until } from "./support.mjs";
 
 const EMULATOR = fileURLToPath(new URL("../node_modules/iwer/build/iwer.min.js", import.meta.url));
 /** Number of the right controller's hand in frames (`HAND.right`). */
@@ -57,7 +57,7 @@ const pressTrigger = (page, side, value) => page.evaluate(([which, how]) => wind
 test("a controller grabs a body, carries it, feels it hit the floor, and lets go", async () => {
   const context = await withHeadset();
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });
-  await until(page, () => window.hyperbody.frame.time > 1.2, null, 30_000);
+  await until(page, () => window.hyperbody.frame.time > 1.2);
   await enter(page);
   await page.evaluate(() => {
     for (const source of window.headset.activeSession.inputSources) {
@@ -73,7 +73,7 @@ test("a controller grabs a body, carries it, feels it hit the floor, and lets go
   const centre = await centreInSlice(page, body);
   const hand = [centre[0] + 0.2, centre[1] + 0.9, centre[2] + 1.6];
   await aim(page, hand, centre);
-  await page.waitForTimeout(300);
+  await pictures(page, 5);
   await page.evaluate(() => window.headset.controllers.right.updateButtonValue("trigger", 1));
   await until(page, ([right, id]) => window.hyperbody.frame.hands.some((held) => held.hand === right && held.body === id), [RIGHT, body]);
   // Up by 0.8 m, in small steps, without turning.
@@ -81,7 +81,7 @@ test("a controller grabs a body, carries it, feels it hit the floor, and lets go
     for (let k = 1; k <= 8; k++) {
       const y = from + ((to - from) * k) / 8;
       await aim(page, [hand[0], hand[1] + y, hand[2]], [centre[0], centre[1] + y, centre[2]]);
-      await page.waitForTimeout(30);
+      await pictures(page, 2);
     }
   };
   await lift(0, 0.8);
@@ -104,7 +104,7 @@ test("a controller grabs a body, carries it, feels it hit the floor, and lets go
 test("two controllers hold two bodies, and each moves its own", async () => {
   const context = await withHeadset();
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });
-  await until(page, () => window.hyperbody.frame.time > 1.2, null, 30_000);
+  await until(page, () => window.hyperbody.frame.time > 1.2);
   await enter(page);
   const hold = async (side, name, hand) => {
     const body = await idOf(page, name);
@@ -112,7 +112,7 @@ test("two controllers hold two bodies, and each moves its own", async () => {
     // Straight from above: nothing else stands in the way.
     const place = [centre[0], centre[1] + 1.6, centre[2] + 0.01];
     await aim(page, place, centre, side);
-    await page.waitForTimeout(300);
+    await pictures(page, 5);
     await pressTrigger(page, side, 1);
     await until(page, ([which, id]) => window.hyperbody.frame.hands.some((held) => held.hand === which && held.body === id), [hand, body]);
     return { side, body, centre, place };
@@ -124,7 +124,7 @@ test("two controllers hold two bodies, and each moves its own", async () => {
     for (let k = 1; k <= 8; k++) {
       const shifted = (point) => point.map((value, axis) => value + (by[axis] * k) / 8);
       await aim(page, shifted(place), shifted(centre), side);
-      await page.waitForTimeout(30);
+      await pictures(page, 2);
     }
   };
   const reaches = (body, axis, least) => until(page, ([id, which, value]) => {
@@ -158,9 +158,9 @@ const inRoom = async (page, point) => {
 /** The right hand points from one place of the room at another, and pulls the trigger. */
 async function press(page, from, at) {
   await aim(page, await inRoom(page, from), await inRoom(page, at));
-  await page.waitForTimeout(300);
+  await pictures(page, 5);
   await pressTrigger(page, "right", 1);
-  await page.waitForTimeout(300);
+  await pictures(page, 5);
   await pressTrigger(page, "right", 0);
 }
 
@@ -182,7 +182,7 @@ test("the panel is on the left wrist, for the right hand to press; with one hand
   await until(page, () => window.hyperbody.frame.paused);
   // Without a left hand, in the room: a turn about y after the one about x.
   await page.evaluate(() => (window.headset.controllers.left.connected = false));
-  await page.waitForTimeout(500);
+  await pictures(page, 10);
   const [x, y, z] = turned(-0.1, 0.0825, -0.2);
   const [c, s] = [Math.cos(0.6), Math.sin(0.6)];
   await press(page, FROM, [-0.42 + c * x + s * z, 1.25 + y, -0.6 - s * x + c * z]);
@@ -225,9 +225,9 @@ test("a pressed stick teleports", async () => {
   await enter(page);
   const before = await page.evaluate(() => window.hyperbody.viewer.position);
   await aim(page, [before[0], before[1] + 1.4, before[2]], [before[0] + 1, before[1], before[2] - 1]);
-  await page.waitForTimeout(200);
+  await pictures(page, 5);
   await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 1));
-  await page.waitForTimeout(300);
+  await pictures(page, 5);
   await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 0));
   await until(page, ([x, z]) => Math.abs(window.hyperbody.viewer.position[0] - x - 1) < 0.15 && Math.abs(window.hyperbody.viewer.position[2] - z + 1) < 0.15, [before[0], before[2]]);
   await page.evaluate(() => window.headset.activeSession.end());
@@ -241,7 +241,7 @@ for (const [scene, what] of [["cradle2d", "two dimensions"], ["dominoes3d", "thr
     const { page, errors } = await open(context, server.address, { scene });
     await enter(page);
     await leftAhead(page);
-    await page.waitForTimeout(1000);
+    await pictures(page, 20);
     assert.deepEqual(errors, []);
     await press(page, FROM, onWrist(0, 0));
     await until(page, () => window.hyperbody.frame.paused);
@@ -264,9 +264,9 @@ test("a teleport puts the head above the ring, wherever in the room it is", asyn
   const scale = await page.evaluate(() => window.hyperbody.viewer.scale);
   const goal = [before[0] + 1.5, before[1], before[2] - 0.5];
   await aim(page, [before[0] + 0.5, before[1] + 1.4, before[2]], goal);
-  await page.waitForTimeout(300);
+  await pictures(page, 5);
   await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 1));
-  await page.waitForTimeout(300);
+  await pictures(page, 5);
   await page.evaluate(() => window.headset.controllers.right.updateButtonValue("thumbstick", 0));
   await until(page, ([x, z]) => Math.abs(window.hyperbody.viewer.position[0] - x) < 0.15 && Math.abs(window.hyperbody.viewer.position[2] - z) < 0.15, [goal[0] - 0.8 * scale, goal[2] - 0.5 * scale]);
   assert.deepEqual(errors, []);

@@ -110,6 +110,11 @@ export class PointerInput {
     }
     if (this.second?.id === event.pointerId) this.secondMove(at);
     if (main.id !== event.pointerId) return;
+    if (main.act === "done" && event.timeStamp < main.when + LONG_PRESS_MS && distance(main.start, at) >= TAP_PIXELS.touch) {
+      // It moved in time; a busy machine told of it late.
+      menu.value = null;
+      main.act = "undecided";
+    }
     if (main.act === "undecided") {
       if (distance(main.start, at) < TAP_PIXELS[main.touch ? "touch" : "mouse"]) return;
       clearTimeout(this.longPress);
