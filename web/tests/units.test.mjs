@@ -1,6 +1,6 @@
 // What needs no picture: parts of the page, read through its builder and run under Node.
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { createServer } from "vite";
@@ -122,6 +122,16 @@ test("what is wrong with a scene is said in Chinese, with its place, and unknown
   assert.equal(zhProblem("bodies[0].shape.ball.radius: the radius of a ball is -1: it must be a number of metres between 1e-6 and 1e6"), "bodies[0].shape.ball.radius：半径（ball） 是 -1，必须是 1e-6 到 1e6 之间的米数");
   assert.equal(zhProblem("line 1, column 129: not JSON: trailing comma"), "多了一个逗号");
   assert.equal(zhProblem("a: something new"), "场景有误。a：something new");
+});
+
+test("bodies of the page's scenes have Chinese names, each of them, with their numbers", async () => {
+  const { zhName } = await vite.ssrLoadModule("/src/i18n/zh-names.ts");
+  assert.deepEqual(["knot 04", "Ball 2", "friction 0.3", "16-cell", "far w wall", "mine alone"].map(zhName), ["结 04", "球 2", "摩擦 0.3", "正十六胞体", "w 远墙", "mine alone"]);
+  const folder = fileURLToPath(new URL("../src/scenes/files/", import.meta.url));
+  for (const file of readdirSync(folder)) {
+    const names = JSON.parse(readFileSync(folder + file, "utf8")).bodies.flatMap(({ name }) => name ?? []);
+    assert.deepEqual(names.filter((name) => zhName(name) === name), [], `${file} has bodies without a Chinese name`);
+  }
 });
 
 test("after stops of the engine: again, then another scene, then no more", async () => {

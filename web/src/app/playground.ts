@@ -147,6 +147,12 @@ export class Playground {
   }
 
   // --- what a person does ---------------------------------------------------------------------------------------------
+  /** What a body is called: in the page's language where its scene is the page's. */
+  nameOf(body: number): string {
+    const name = this.body(body)?.name ?? String(body);
+    return this.sceneName.value === null ? name : t().bodyName(name);
+  }
+
 
   /** Opens a scene of the gallery; nothing happens if another one is asked for meanwhile. */
   async open(name: string): Promise<void> {
@@ -329,7 +335,7 @@ export class Playground {
   }
 
   async remove(body: number): Promise<void> {
-    const name = this.body(body)?.name ?? "";
+    const name = this.nameOf(body);
     if (this.selected.value === body) this.select(null);
     if (await this.attempt(this.client.request("remove", { body }))) this.say(t().forgotten(name), true);
   }

@@ -60,6 +60,8 @@ export const en = {
   },
 
   body: "Body",
+  /** What a body of the gallery's scenes is called. */
+  bodyName: (name: string) => name,
   position: "Position",
   velocity: "Velocity",
   rotor: "Rotor",

@@ -1,5 +1,6 @@
 // 界面的中文文字。 The page's words in Chinese.
 import type { Words } from "./en";
+import { zhName } from "./zh-names";
 import { zhProblem } from "./zh-problems";
 import { zhScenes } from "./zh-scenes";
 
@@ -62,6 +63,7 @@ export const zh: Words = {
   },
 
   body: "物体",
+  bodyName: zhName,
   position: "位置",
   velocity: "速度",
   rotor: "转子",

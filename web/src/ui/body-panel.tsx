@@ -22,7 +22,7 @@ export function BodyPanel() {
     <section class="body-panel glass" aria-label={t().body} data-testid="body-panel">
       <header>
         <span class="swatch" style={{ background: playground.stage.styles.of(id).css }} />
-        <h2 title={selected.name}>{selected.name}</h2>
+        <h2 title={playground.nameOf(id)}>{playground.nameOf(id)}</h2>
         <span class="state">{selected.frozen ? t().frozen : selected.sleeping ? t().asleep : `${short(selected.mass)} kg`}</span>
         <button type="button" class="button" aria-expanded={bodyOpen.value} aria-label={t().body} onClick={() => (bodyOpen.value = !bodyOpen.value)}>
           <Icon name="chevron" />

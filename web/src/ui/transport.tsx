@@ -45,7 +45,7 @@ export function Warnings() {
   const readout = playground.readout.value;
   if (!readout) return null;
   const slow = !playground.paused.value && readout.slowdown < SLOW_SHARE;
-  const stopped = readout.quarantined.map((body) => playground.body(body)?.name ?? String(body));
+  const stopped = readout.quarantined.map((body) => playground.nameOf(body));
   return (
     <div class="warnings" role="status">
       {slow && <p class="warning">{t().tooSlow((100 * readout.slowdown).toFixed(0))}</p>}

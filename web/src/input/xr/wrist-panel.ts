@@ -137,7 +137,7 @@ export class WristPanel {
     if (!paused.value && share < SLOW_SHARE) return t().tooSlow((100 * share).toFixed(0));
     const body = this.playground.readout.value?.selected;
     if (!body) return t().vrPanel.hint;
-    return `${body.name} · ${Math.hypot(...body.velocity).toFixed(1)} m/s`;
+    return `${this.playground.nameOf(body.body)} · ${Math.hypot(...body.velocity).toFixed(1)} m/s`;
   }
 
   /** Presses what the ray meets; false if it misses the panel. */
