@@ -1,7 +1,7 @@
 // Panels: language, scenes dropped and broken, back through time, gravity, the gallery.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { DESKTOP, launch, open, serve, until } from "./support.mjs";
+import { DESKTOP, launch, open, serve, until, whereIs } from "./support.mjs";
 
 let browser, server;
 before(async () => ([browser, server] = await Promise.all([launch(), serve()])));
@@ -120,6 +120,43 @@ test("what was started again, or left for another scene, comes back by undo; the
   const context = await browser.newContext(DESKTOP);
   const { page, errors } = await open(context, server.address, { scene: "smash4d" });
   const isThere = (count, name = "smash4d") => until(page, ([bodies, scene]) => window.hyperbody.scene.bodies.length === bodies && window.hyperbody.sceneName === scene, [count, name]);
+test("what is added appears in the picture, in the slice, above everything and inside nothing", async () => {
+  const context = await browser.newContext(DESKTOP);
+  for (const scene of ["dice4d", "flatland_pile3d", "pyramid2d"]) {
+    const { page, errors } = await open(context, server.address, { scene, query: "&speed=0.01" });
+    // Off the middle of the scene too.
+    for (const turn of ["KeyE", "ArrowLeft"]) {
+      await page.keyboard.press(turn === "KeyE" ? "e" : turn);
+      const count = await page.evaluate(() => window.hyperbody.scene.bodies.length);
+      await page.locator("[data-shape=ball]").click();
+      await until(page, (before) => window.hyperbody.scene.bodies.length > before && window.hyperbody.frame.selected?.body === window.hyperbody.selected, count);
+      const { body, off, lowest } = await page.evaluate(() => {
+        const { frame, selected: id } = window.hyperbody;
+        const stride = 4 + frame.slice.off.length;
+        const all = Array.from({ length: frame.centres.length / stride }, (_, k) => Array.from(frame.centres.subarray(k * stride, (k + 1) * stride)));
+        const its = all.find(([which]) => which === id);
+        // How near other bodies' sections come to its middle.
+        const { positions, ranges } = frame.surface;
+        let nearest = Infinity;
+        for (let range = 0; range < ranges.length; range += 3) {
+          if (ranges[range] === id) continue;
+          for (let at = 3 * ranges[range + 1]; at < 3 * (ranges[range + 1] + ranges[range + 2]); at += 3) {
+            nearest = Math.min(nearest, Math.hypot(positions[at] - its[1], positions[at + 1] - its[2], positions[at + 2] - its[3]));
+          }
+        }
+        return { body: id, off: its.slice(4), lowest: nearest };
+      });
+      const { x, y } = await whereIs(page, body);
+      assert.ok(x > 60 && x < 840 && y > 60 && y < 540, `in ${scene} it is added at ${x}, ${y} of the page`);
+      assert.ok(off.every((value) => Math.abs(value) < 0.05), `in ${scene} it is added ${off} m off the slice`);
+      assert.ok(lowest > 0.5, `in ${scene} it is added ${lowest} m from another body`);
+    }
+    assert.deepEqual(errors, []);
+    await page.close();
+  }
+  await context.close();
+});
+
   const bodies = await page.evaluate(() => window.hyperbody.scene.bodies.length);
   await page.locator("[data-shape=ball]").click();
   await isThere(bodies + 1);

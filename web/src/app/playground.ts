@@ -12,6 +12,7 @@ import { t, wordsOf } from "../i18n";
 import { firstFollowed, firstTurn } from "../scenes/gallery";
 import { textOfOwn } from "../scenes/own";
 import { FirstLook } from "./first-look";
+import { isSeen, whereToLand } from "./landing";
 import { Plots } from "./plots";
 import { QualityGuard } from "./quality";
 import { Recovery } from "./recovery";
@@ -146,13 +147,13 @@ export class Playground {
     return this.scene.value?.bodies.find((body) => body.id === id);
   }
 
-  // --- what a person does ---------------------------------------------------------------------------------------------
   /** What a body is called: in the page's language where its scene is the page's. */
   nameOf(body: number): string {
     const name = this.body(body)?.name ?? String(body);
     return this.sceneName.value === null ? name : t().bodyName(name);
   }
 
+  // --- what a person does ---------------------------------------------------------------------------------------------
 
   /** Opens a scene of the gallery; nothing happens if another one is asked for meanwhile. */
   async open(name: string): Promise<void> {
@@ -344,20 +345,21 @@ export class Playground {
     void this.attempt(this.client.request("freeze", { body, on }));
   }
 
-  /** Adds a body in front of the camera, in the slice. */
+  /** Adds a body where it is seen, in the slice, above what is there. */
   async spawn(shape: object, name: string): Promise<void> {
-    const { target } = this.stage.orbit;
-    const position = toWorld(this.drawnFrame(), target.toArray().slice(0, this.drawnFrame().shown));
-    const answer = await this.attempt(this.client.request("spawn", { shape, position: this.raised(position), name }));
-    if (answer) this.select(answer.body);
-  }
-
-  /** Spawned things fall a little, so that they are seen to come. */
-  private raised(position: number[]): number[] {
-    const up = this.gravity.value;
-    const strength = Math.hypot(...up);
-    const height = strength > 0 ? (this.scene.value?.extent ?? 1) * 0.35 + 0.6 : 0;
-    return position.map((value, axis) => value - (strength > 0 ? (height * up[axis]) / strength : 0));
+    const place = whereToLand(this, shape);
+    const position = toWorld(this.drawnFrame(), place.toArray().slice(0, this.drawnFrame().shown));
+    const answer = await this.attempt(this.client.request("spawn", { shape, position, name }));
+    if (!answer) return;
+    this.select(answer.body);
+    if (isSeen(this, place)) return;
+    // Once a frame has it.
+    const look = () => {
+      if (!this.centre(answer.body)) return;
+      this.onFrame.delete(look);
+      this.seeAll();
+    };
+    this.onFrame.add(look);
   }
 
   /** How far off the slice a body lies, along the off direction where that is most; null if the slice cuts it, or it is not there. */

@@ -22,6 +22,15 @@ const FINE = "M12 3.500a8.500 8.500 0 1 0 0 17 8.500 8.500 0 0 0 0-17M12 3.500l7
 const DUO = "M12 5a7 3 0 1 0 0 6 7 3 0 0 0 0-6M5 8v8a7 3 0 0 0 14 0V8M12 8l3.500 8";
 const TUBE = "M12 4a6 2.500 0 1 0 0 5 6 2.500 0 0 0 0-5M6 6.500v11a6 2.500 0 0 0 12 0v-11";
 
+/** All of a shape lies within this distance of its middle, m. */
+export function radiusOf(shape: object): number {
+  const { box, ball, capsule, polytope, product } = shape as Record<string, Record<string, unknown> | undefined>;
+  if (box) return Math.hypot(...(box.half_extents as number[]));
+  if (capsule) return Number(capsule.half_length) + Number(capsule.radius);
+  if (product) return Math.hypot(...(product.factors as { shape: object }[]).map((factor) => radiusOf(factor.shape)));
+  return Number(ball?.radius ?? polytope?.circumradius);
+}
+
 /** What can be added to a world of this dimension. */
 export function shapesFor(n: number): ShapeChoice[] {
   const extents = (first: number, others: number) => Array.from({ length: n }, (_, axis) => (axis === 0 ? first : others));

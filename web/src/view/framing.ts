@@ -34,7 +34,7 @@ export function sight(frame: Frame, bodies: readonly BodyDescription[], what: "s
 }
 
 /** The box of every section and every ghost. */
-function sections({ surface, ghosts }: Frame): Map<number, Box3> {
+export function sections({ surface, ghosts }: Pick<Frame, "surface" | "ghosts">): Map<number, Box3> {
   const boxes = new Map<number, Box3>();
   const corner = new Vector3();
   for (const { positions, ranges } of ghosts ? [surface, ghosts] : [surface]) {
