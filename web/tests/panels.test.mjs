@@ -48,6 +48,10 @@ test("a dropped scene runs; a broken one names its line and the running scene go
   assert.equal(await page.evaluate(() => window.hyperbody.scene.title), "Dropped");
   const step = await page.evaluate(() => window.hyperbody.frame.step);
   await until(page, (before) => window.hyperbody.frame.step > before, step);
+  // An unknown key too, wherever its object begins.
+  await page.getByTestId("editor-text").fill(GOOD.replace('"bodies": [', '"gravty": [0, 0, 0, 0],\n  "bodies": ['));
+  await page.keyboard.press("Control+Enter");
+  await until(page, () => /^Line 3: .*gravty.*nearest known one is "gravity"/.test(document.querySelector("[data-testid=problem]").innerText));
   // Put right in the editor, it runs.
   await page.getByTestId("editor-text").fill(GOOD.replace("Dropped", "Mended"));
   await page.keyboard.press("Control+Enter");

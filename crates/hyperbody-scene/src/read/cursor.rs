@@ -137,11 +137,11 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A key that stands for nothing here.
+/// A key that stands for nothing here; its place is its own, so that whoever shows the text can show the line.
 pub(crate) fn unknown_key(path: &str, key: &str, known: &[&str]) -> SceneError {
     let near = nearest(key, known.iter().copied()).unwrap_or("nothing");
     let message = format!("unknown key \"{key}\"; the nearest known one is \"{near}\" (known: {})", known.join(", "));
-    SceneError::structure(path, message)
+    SceneError::structure(join(path, key), message)
 }
 
 /// The path of a key of the object at `path`.

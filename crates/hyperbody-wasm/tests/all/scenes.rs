@@ -66,7 +66,11 @@ fn errors_name_the_line_and_the_running_scene_goes_on() {
     let unknown = text.replace("\"dimension\"", "\"dimensoin\"");
     let refused = refusal(&mut playground, json!({ "type": "load", "text": unknown }));
     assert!(refused["message"].as_str().is_some_and(|m| m.contains("dimension")), "{refused}");
-    assert!(refused["line"].as_u64().is_some(), "{refused}");
+    assert_eq!(refused["line"], 3, "{refused}");
+    // Also where the key stands in the middle of an object that begins lines before.
+    let deep = text.replace("\n    {\"ball\"", "\n    {\"bal\"");
+    let refused = refusal(&mut playground, json!({ "type": "load", "text": deep }));
+    assert_eq!(refused["line"], 7, "{refused}");
     let nine = text.replace("4", "9");
     let refused = refusal(&mut playground, json!({ "type": "load", "text": nine }));
     assert!(refused["message"].as_str().is_some_and(|m| m.contains("dimension")), "{refused}");
