@@ -1,5 +1,5 @@
 // Everything about the selected body, live: where it is, how it moves and turns, what it holds, and the last seconds of it.
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import { HAND } from "../app/hand-control";
 import { t } from "../i18n";
 import { BODY_COLOURS } from "../view/palette";
@@ -12,14 +12,29 @@ import { bodyOpen } from "./state";
 import type { Plots, Sample } from "../app/plots";
 import type { Planes } from "../engine/protocol";
 
+/** What the panel lies over in its usual place, CSS pixels: so far from the right on wide pages, from below on narrow ones. */
+const COVERS = { right: 540, below: 260 };
+/** Where it is as far from both its places, from the page's middle. */
+const BETWEEN = -71;
+const NARROW = 759;
+const LOW = 520;
+
+/** Whether the panel goes to its other place, because it would lie over the body that somebody has just touched. */
+function covers(place: { x: number; y: number } | null): boolean {
+  const { x, y } = place ?? { x: innerWidth / 2, y: innerHeight / 2 };
+  if (innerWidth <= NARROW && innerHeight > LOW) return y > innerHeight - COVERS.below;
+  return x > Math.max(innerWidth - COVERS.right, innerWidth / 2 + BETWEEN);
+}
+
 export function BodyPanel() {
   const playground = usePlayground();
   const selected = playground.readout.value?.selected;
   const id = playground.selected.value;
+  const away = useMemo(() => id !== null && covers(playground.onPage(id)), [id]);
   if (!selected || id === null || selected.body !== id) return null;
   const following = playground.followed.value === id;
   return (
-    <section class="body-panel glass" aria-label={t().body} data-testid="body-panel">
+    <section class={`body-panel glass ${away ? "away" : ""}`} aria-label={t().body} data-testid="body-panel">
       <header>
         <span class="swatch" style={{ background: playground.stage.styles.of(id).css }} />
         <h2 title={playground.nameOf(id)}>{playground.nameOf(id)}</h2>

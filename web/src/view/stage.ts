@@ -23,9 +23,10 @@ const LEAST_EXTENT = 1.6;
 /** From where: a little from the side and above; worlds of two dimensions straight on. */
 const FIRST_VIEW = { yaw: 0.55, pitch: 0.3 };
 const FLAT_VIEW = { yaw: 0, pitch: 0.02 };
-/** What panels take of the picture, CSS pixels: above, right, below, left; where it is narrow, and where it is wide. */
+/** What panels take of the picture, CSS pixels: above, right, below, left; where it is low, where it is narrow, and where it is wide. */
+const LOW = { height: 520, width: 600 };
 const NARROW = 759;
-const PANELS = { narrow: [76, 10, 152, 10], wide: [84, 186, 96, 72] };
+const PANELS = { low: [64, 116, 80, 62], narrow: [76, 10, 152, 10], wide: [84, 186, 96, 72] };
 /** Flatland's window: a share of the width on the left, or of the height above where that is narrow. */
 const WINDOW = { narrow: 0.4, wide: 0.48 };
 /** What is looked at first fills so much of the room. */
@@ -113,8 +114,9 @@ export class Stage {
   /** What panels hide at the four sides, at most half of each length. */
   private panels(): number[] {
     const [width, height] = this.size;
-    const narrow = width <= NARROW;
-    const [top, right, bottom, left] = PANELS[narrow ? "narrow" : "wide"];
+    const low = height <= LOW.height && width >= LOW.width;
+    const narrow = width <= NARROW && !low;
+    const [top, right, bottom, left] = PANELS[low ? "low" : narrow ? "narrow" : "wide"];
     const all = [top, right, bottom, left];
     if (this.roomMade) all[narrow ? 0 : 3] = narrow ? WINDOW.narrow * height + top : WINDOW.wide * width;
     return all.map((side, k) => Math.min(side, (k % 2 === 0 ? height : width) / 2.2));
