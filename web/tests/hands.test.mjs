@@ -91,6 +91,40 @@ for (const scene of ["pyramid2d", "dominoes3d", "flatland_pile3d"]) {
   });
 }
 
+test("in six dimensions what is held is pushed along w, v or u: by wheel and keys, along the strip that was touched last", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "dice6d" });
+  await page.keyboard.press("v");
+  await page.keyboard.press("n");
+  await until(page, () => window.hyperbody.frame.selected?.body === window.hyperbody.selected);
+  const start = await page.evaluate(() => window.hyperbody.frame.selected.position);
+  const reaches = (axis) => until(page, ([which, least]) => window.hyperbody.frame.selected.position[which] > least, [axis, start[axis] + 0.4]);
+  // Alt and E carry it along v once W has gone on from w, then along u.
+  const carry = async (axis) => {
+    await page.keyboard.down("Alt");
+    await page.keyboard.down("e");
+    await reaches(axis);
+    await page.keyboard.up("e");
+    await page.keyboard.up("Alt");
+  };
+  await page.keyboard.press("w");
+  await page.getByText("now push along v").waitFor();
+  await carry(4);
+  await page.keyboard.press("w");
+  await page.getByText("now push along u").waitFor();
+  await carry(5);
+  const { position } = await page.evaluate(() => window.hyperbody.frame.selected);
+  assert.ok(Math.abs(position[3] - start[3]) < 0.3, `it went from ${start} to ${position}`);
+  const box = await page.getByTestId("strip-0").boundingBox();
+  await page.mouse.move(box.x + 5, box.y + 50);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 5, box.y + 70);
+  await page.mouse.up();
+  await page.getByText("now push along w").waitFor();
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("a second finger pushes what the first one holds along w", async () => {
   const context = await browser.newContext(PHONE);
   const { page, errors } = await open(context, server.address, { scene: "hello4d" });

@@ -120,10 +120,6 @@ test("gravity off: what is thrown up does not come down; added bodies can be und
   await context.close();
 });
 
-test("what was started again, or left for another scene, comes back by undo; the tour gives it back by itself", async () => {
-  const context = await browser.newContext(DESKTOP);
-  const { page, errors } = await open(context, server.address, { scene: "smash4d" });
-  const isThere = (count, name = "smash4d") => until(page, ([bodies, scene]) => window.hyperbody.scene.bodies.length === bodies && window.hyperbody.sceneName === scene, [count, name]);
 test("what is added appears in the picture, in the slice, above everything and inside nothing", async () => {
   const context = await browser.newContext(DESKTOP);
   for (const scene of ["dice4d", "flatland_pile3d", "pyramid2d"]) {
@@ -161,6 +157,10 @@ test("what is added appears in the picture, in the slice, above everything and i
   await context.close();
 });
 
+test("what was started again, or left for another scene, comes back by undo; the tour gives it back by itself", async () => {
+  const context = await browser.newContext(DESKTOP);
+  const { page, errors } = await open(context, server.address, { scene: "smash4d" });
+  const isThere = (count, name = "smash4d") => until(page, ([bodies, scene]) => window.hyperbody.scene.bodies.length === bodies && window.hyperbody.sceneName === scene, [count, name]);
   const bodies = await page.evaluate(() => window.hyperbody.scene.bodies.length);
   await page.locator("[data-shape=ball]").click();
   await isThere(bodies + 1);

@@ -9,6 +9,7 @@ import type { Picked } from "../view/pick";
 import { FlatlandView } from "../view/flatland";
 import { HAND, HandControl } from "./hand-control";
 import { t, wordsOf } from "../i18n";
+import { AXES } from "../ui/axes";
 import { firstFollowed, firstTurn } from "../scenes/gallery";
 import { textOfOwn } from "../scenes/own";
 import { FirstLook } from "./first-look";
@@ -77,6 +78,8 @@ export class Playground {
   readonly paused = signal(false);
   readonly selected = signal<number | null>(null);
   readonly followed = signal<number | null>(null);
+  /** The off direction, counted from 0, that wheel, second finger, sticks and keys mean: worlds of five and six dimensions have more than one. */
+  readonly along = signal(0);
   readonly speed = signal(1);
   /** What a scene begins with: real time, unless the address asks for another. */
   usualSpeed = 1;
@@ -335,6 +338,18 @@ export class Playground {
     this.slice.moveTo(offset, j);
   }
 
+  /** Chooses the off direction that hands push along, and says so. */
+  setAlong(j: number): void {
+    if (j === this.along.value) return;
+    this.along.value = j;
+    this.say(t().alongNow(AXES[this.slice.frame.shown + j]));
+  }
+
+  /** The row of the drawn frame that hands push along. */
+  get pushRow(): number {
+    return this.drawnFrame().shown + this.along.value;
+  }
+
   async remove(body: number): Promise<void> {
     const name = this.nameOf(body);
     if (this.selected.value === body) this.select(null);
@@ -553,6 +568,7 @@ export class Playground {
     this.select(null);
     this.toFollow = scene.bodies.find((body) => body.name === firstFollowed(name))?.id ?? null;
     this.gravity.value = scene.gravity;
+    this.along.value = 0;
     this.setFlatland(this.sceneName.value?.startsWith("flatland") ?? false);
     this.stage.setScene(scene);
     this.look.begin();

@@ -42,6 +42,7 @@ export const en = {
   follow: "Follow with the slice",
   unfollow: "Stop following",
   compass: "How the slice lies: the world's axes as the view sees them",
+  alongNow: (axis: string) => `Wheel, second finger, Q and E now push along ${axis}`,
   strip: "Every body over its extent off the slice. Drag to move the slice, tap a bar to go there",
 
   viewMode: "View",
@@ -172,7 +173,7 @@ export const en = {
 
   keys: {
     groupSlice: "Slice", groupTime: "Time", groupBody: "Body", groupView: "View", groupHands: "Mouse and touch",
-    forward: "along w, back and forth", next: "to the next / previous body", turn: "turn in xw, yw, zw (Shift: 90°)", homeKey: "home", snapKey: "snap to 90°",
+    forward: "along w, back and forth", offKey: "in 5D and 6D: along w, v or u (or touch a strip)", next: "to the next / previous body", turn: "turn in xw, yw, zw (Shift: 90°)", homeKey: "home", snapKey: "snap to 90°",
     followKey: "follow the selected body",
     pauseKey: "pause, run", stepKey: "one step", slowKey: "slow motion", resetKey: "start again", undoKey: "undo", backKey: "back and forth in time",
     cycle: "select the next / previous body", carry: "move the selected body (spring)", carryOff: "push it along w", spinKey: "turn it in view / into w (Shift)", freezeKey: "freeze",

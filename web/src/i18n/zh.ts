@@ -45,6 +45,7 @@ export const zh: Words = {
   follow: "切片跟随它",
   unfollow: "停止跟随",
   compass: "切片的朝向：世界各轴在视图中的样子",
+  alongNow: (axis) => `滚轮、第二根手指和 Q、E 现在沿 ${axis} 推`,
   strip: "每个物体在切片之外方向上的范围。拖动可移动切片，点一条即可前往",
 
   viewMode: "显示",
@@ -166,7 +167,7 @@ export const zh: Words = {
 
   keys: {
     groupSlice: "切片", groupTime: "时间", groupBody: "物体", groupView: "视图", groupHands: "鼠标与触摸",
-    forward: "沿 w 前后移动", next: "到下一个／上一个物体", turn: "在 xw、yw、zw 内转动（Shift：90°）", homeKey: "复位", snapKey: "对齐到 90°", followKey: "跟随选中的物体",
+    forward: "沿 w 前后移动", offKey: "五维、六维中：沿 w、v 或 u（或触碰带子）", next: "到下一个／上一个物体", turn: "在 xw、yw、zw 内转动（Shift：90°）", homeKey: "复位", snapKey: "对齐到 90°", followKey: "跟随选中的物体",
     pauseKey: "暂停、运行", stepKey: "单步", slowKey: "慢动作", resetKey: "重新开始", undoKey: "撤销", backKey: "时间前后",
     cycle: "选下一个／上一个物体", carry: "移动选中的物体（弹簧）", carryOff: "沿 w 推它", spinKey: "在视图中转它／转入 w（Shift）", freezeKey: "固定", removeKey: "删除", gravityKey: "重力开关",
     orbitKey: "环绕", zoomKey: "缩放", modeKey: "实体、玻璃、隐藏", ghostKey: "虚影", wireKey: "线框", jointKey: "关节", frameKey: "看全景", fullKey: "全屏", galleryKey: "场景", editorKey: "编辑器",

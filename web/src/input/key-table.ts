@@ -15,6 +15,7 @@ export const KEY_GROUPS: readonly KeyGroup[] = [
     keys: [
       { shown: ["E", "Q"], words: "forward" },
       { shown: ["Shift+E", "Shift+Q"], words: "next" },
+      { shown: ["W"], words: "offKey" },
       { shown: ["R F", "T G", "Y H"], words: "turn" },
       { shown: ["Home", "0"], words: "homeKey" },
       { shown: ["9"], words: "snapKey" },

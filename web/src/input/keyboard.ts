@@ -97,6 +97,7 @@ export class KeyboardInput {
       Delete: () => void (selected !== null && void playground.remove(selected)),
       KeyV: () => toggleGravity(playground, playground.gravity.value.every((value) => value === 0)),
       KeyA: () => playground.seeAll(),
+      KeyW: () => slice.offCount > 1 && playground.setAlong((playground.along.value + 1) % slice.offCount),
       KeyM: toggleFullscreen,
       KeyC: () => toggleSheet("gallery"),
       KeyX: () => toggleSheet("editor"),
@@ -114,7 +115,7 @@ export class KeyboardInput {
 
   private quarter(view: number, sign: number): void {
     const { slice } = this.playground;
-    if (view < slice.frame.shown && slice.offCount > 0) slice.quarter(view, 0, sign);
+    if (view < slice.frame.shown && slice.offCount > 0) slice.quarter(view, this.playground.along.value, sign);
   }
 
   private cycle(step: number): void {
@@ -126,13 +127,13 @@ export class KeyboardInput {
     this.playground.select(bodies[(from + step + bodies.length) % bodies.length].id);
   }
 
-  /** Goes to the body whose middle lies next along the first off direction. */
+  /** Goes to the body whose middle lies next along the chosen off direction. */
   private goToNeighbour(sign: number): void {
     const { frame } = this.playground.client;
     if (!frame || frame.slice.off.length === 0) return;
     let best: { body: number; away: number } | null = null;
     for (let at = 0; at < frame.centres.length; at += centreStride(frame.slice)) {
-      const away = sign * frame.centres[at + 1 + DRAWN];
+      const away = sign * frame.centres[at + 1 + DRAWN + this.playground.along.value];
       if (away > 0.05 && (!best || away < best.away)) best = { body: frame.centres[at], away };
     }
     if (best) this.playground.goTo(best.body);
@@ -161,11 +162,12 @@ export class KeyboardInput {
     const is = (name: string) => (names.has(name) ? 1 : 0);
     const along = is("KeyE") - is("KeyQ");
     const free = !this.alt && !this.shift;
-    if (slice.offCount > 0) {
-      slice.setGlide(0, free ? along : 0);
+    for (let j = 0; j < slice.offCount; j++) {
+      const chosen = free && j === this.playground.along.value;
+      slice.setGlide(j, chosen ? along : 0);
       for (let view = 0; view < slice.frame.shown; view++) {
         const rate = Object.entries(TURN_KEYS).reduce((sum, [code, [axis, sign]]) => sum + (axis === view ? sign * is(code) : 0), 0);
-        slice.setSpin(view, 0, free ? rate : 0);
+        slice.setSpin(view, j, chosen ? rate : 0);
       }
     }
     if (along !== 0 && free) this.playground.followed.value = null;
@@ -211,10 +213,11 @@ export class KeyboardInput {
       }
     }
     const { shown } = this.playground.drawnFrame();
-    hands.push(HAND.keyboard, shown, along * CARRY_SPEED * seconds);
+    const { pushRow } = this.playground;
+    hands.push(HAND.keyboard, pushRow, along * CARRY_SPEED * seconds);
     const n = this.playground.slice.frame.rows.length;
     const pad = (v: number[]) => Array.from({ length: n }, (_, axis) => (axis < 3 ? v[axis] : 0));
-    const away = this.shift && n > shown ? Array.from({ length: n }, (_, axis) => (axis === shown ? 1 : 0)) : pad(back);
+    const away = this.shift && n > shown ? Array.from({ length: n }, (_, axis) => (axis === pushRow ? 1 : 0)) : pad(back);
     for (const [, [x, y]] of turning) {
       if (x !== 0) hands.turn(HAND.keyboard, away, pad(right), x * SPIN_SPEED * seconds);
       if (y !== 0) hands.turn(HAND.keyboard, away, pad(up), y * SPIN_SPEED * seconds);

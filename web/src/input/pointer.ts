@@ -1,5 +1,5 @@
 // Mouse and touch on the view. One finger or the left button pulls a body or orbits; the right button turns a body or
-// shifts the view; the wheel or a second finger pushes what is held along w (moved aside, the finger turns it); a long press or right click asks for a menu.
+// shifts the view; the wheel or a second finger pushes what is held along the chosen off direction (moved aside, the finger turns it); a long press or right click asks for a menu.
 import { Plane, Vector3 } from "three";
 import { HAND } from "../app/hand-control";
 import { calm } from "../app/settings";
@@ -174,7 +174,7 @@ export class PointerInput {
       return Array.from({ length: n }, (_, axis) => (axis < 3 ? inView.getComponent(axis) : 0));
     };
     const [right, up, back] = [direction(0), direction(1), direction(2)];
-    const off = Array.from({ length: n }, (_, axis) => (axis === this.playground.drawnFrame().shown ? 1 : 0));
+    const off = Array.from({ length: n }, (_, axis) => (axis === this.playground.pushRow ? 1 : 0));
     const target = intoW && n > 3 ? off : back;
     hands.turn(HAND.pointer, target, right, dx * TURN_PER_PIXEL);
     hands.turn(HAND.pointer, up, target, dy * TURN_PER_PIXEL);
@@ -193,7 +193,7 @@ export class PointerInput {
     const [dx, dy] = [at[0] - second.start[0], at[1] - second.start[1]];
     if (!second.sense && Math.hypot(dx, dy) > SENSE_PIXELS) second.sense = Math.abs(dy) >= Math.abs(dx) ? "push" : "turn";
     const { hands } = this.playground;
-    if (second.sense === "push") hands.push(HAND.pointer, this.playground.drawnFrame().shown, (second.last[1] - at[1]) * PUSH_PER_PIXEL);
+    if (second.sense === "push") hands.push(HAND.pointer, this.playground.pushRow, (second.last[1] - at[1]) * PUSH_PER_PIXEL);
     else if (second.sense === "turn") this.turn(at[0] - second.last[0], 0, false);
   }
 
@@ -239,8 +239,8 @@ export class PointerInput {
     event.preventDefault();
     const amount = event.deltaY || event.deltaX;
     const { hands, slice, stage } = this.playground;
-    if (hands.holds(HAND.pointer) !== null) hands.push(HAND.pointer, this.playground.drawnFrame().shown, -amount * PUSH_PER_WHEEL);
-    else if ((event.shiftKey || event.altKey) && slice.offCount > 0) this.playground.moveSlice(slice.offset() - amount * SLICE_PER_WHEEL);
+    if (hands.holds(HAND.pointer) !== null) hands.push(HAND.pointer, this.playground.pushRow, -amount * PUSH_PER_WHEEL);
+    else if ((event.shiftKey || event.altKey) && slice.offCount > 0) this.playground.moveSlice(slice.offset(this.playground.along.value) - amount * SLICE_PER_WHEEL, this.playground.along.value);
     else stage.orbit.zoom(Math.exp(amount * ZOOM_PER_WHEEL * (event.ctrlKey ? 5 : 1)));
   }
 

@@ -53,6 +53,7 @@ export function Strip({ off }: { off: number }) {
   };
   const down = (event: PointerEvent) => {
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+    playground.setAlong(off);
     drag.current = { start: along(event).at, offset: playground.slice.offset(off), moved: false };
   };
   const move = (event: PointerEvent) => {
@@ -81,7 +82,7 @@ export function Strip({ off }: { off: number }) {
   };
   return (
     <LiveCanvas
-      class="strip" role="slider" tabIndex={0} aria-label={t().sliceAlong(axis)} aria-valuenow={Number(offset.toFixed(2))} aria-valuemin={Math.min(-RANGE, offset)} aria-valuemax={Math.max(RANGE, offset)} aria-valuetext={`${axis} ${signed(offset).trim()} m`} title={t().strip}
+      class={`strip ${playground.slice.offCount > 1 && playground.along.value === off ? "chosen" : ""}`} role="slider" tabIndex={0} aria-label={t().sliceAlong(axis)} aria-valuenow={Number(offset.toFixed(2))} aria-valuemin={Math.min(-RANGE, offset)} aria-valuemax={Math.max(RANGE, offset)} aria-valuetext={`${axis} ${signed(offset).trim()} m`} title={t().strip}
       data-testid={`strip-${off}`} onPointerDown={down} onPointerMove={move} onPointerUp={up} onPointerCancel={() => (drag.current = null)} onKeyDown={key}
       draw={(context, width, height) => {
         collect(playground, off, bars.current);

@@ -63,8 +63,10 @@ export class Controllers {
   /** Once a picture: hands follow the controllers, sticks act. */
   update(seconds: number): void {
     const { slice } = this.playground;
-    for (let view = 0; view < slice.frame.shown && slice.offCount > 0; view++) slice.setSpin(view, 0, 0);
-    if (slice.offCount > 0) slice.setGlide(0, 0);
+    for (let j = 0; j < slice.offCount; j++) {
+      for (let view = 0; view < slice.frame.shown; view++) slice.setSpin(view, j, 0);
+      slice.setGlide(j, 0);
+    }
     for (const controller of this.controllers) {
       if (!controller.source) continue;
       this.follow(controller);
@@ -127,15 +129,15 @@ export class Controllers {
     if (!gamepad) return;
     const x = live(gamepad.axes[STICK_X] ?? 0);
     const y = live(-(gamepad.axes[STICK_Y] ?? 0));
-    const { slice, hands } = this.playground;
+    const { slice, hands, along: { value: off }, pushRow } = this.playground;
     if (slice.offCount > 0 && controller.source?.handedness === "left") {
-      slice.setGlide(0, y);
+      slice.setGlide(off, y);
       if (y !== 0) this.playground.followed.value = null;
-      if (slice.frame.shown > 1) slice.setSpin(1, 0, x);
+      if (slice.frame.shown > 1) slice.setSpin(1, off, x);
     } else if (slice.offCount > 0) {
-      slice.setSpin(0, 0, x);
-      if (hands.holds(controller.hand) !== null) hands.push(controller.hand, slice.frame.shown, y * PUSH_SPEED * seconds);
-      else if (slice.frame.shown > 2) slice.setSpin(2, 0, y);
+      slice.setSpin(0, off, x);
+      if (hands.holds(controller.hand) !== null) hands.push(controller.hand, pushRow, y * PUSH_SPEED * seconds);
+      else if (slice.frame.shown > 2) slice.setSpin(2, off, y);
     }
     this.teleportBy(controller, gamepad.buttons[STICK_BUTTON]?.pressed ?? false);
   }
