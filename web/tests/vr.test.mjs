@@ -219,6 +219,44 @@ test("the panel has the palette: shapes are added from it until it is closed", a
   await context.close();
 });
 
+test("the strip above the panel is dragged by a ray, which moves the slice, and a bar is tapped, which goes to its body", async () => {
+  const context = await withHeadset();
+  const { page, errors } = await open(context, server.address, { scene: "hello4d" });
+  await enter(page);
+  await leftAhead(page);
+  await pictures(page, 10);
+  // Its middle is 0.213 m above that of the panel.
+  const onStrip = (x, y = 0) => turned(x, 0.213 + y, -0.7).map((value, axis) => value + [-0.2, 1.3, -0.34][axis]);
+  const point = async (at) => {
+    await aim(page, await inRoom(page, FROM), await inRoom(page, at));
+    await pictures(page, 5);
+  };
+  await point(onStrip(0));
+  await pressTrigger(page, "right", 1);
+  await pictures(page, 5);
+  for (let k = 1; k <= 5; k++) await point(onStrip(0.01 * k));
+  await until(page, () => window.hyperbody.slice.origin[3] > 0.3);
+  await pressTrigger(page, "right", 0);
+  await pictures(page, 5);
+  // Across the middle of the strip lie bars, one below the other: some tap meets one.
+  for (let k = -4; k <= 4 && (await page.evaluate(() => window.hyperbody.selected)) === null; k++) {
+    await point(onStrip(-0.02, 0.01 * k));
+    await pressTrigger(page, "right", 1);
+    await pictures(page, 5);
+    await pressTrigger(page, "right", 0);
+    await pictures(page, 5);
+  }
+  const body = await page.evaluate(() => window.hyperbody.selected);
+  assert.ok(body !== null, "no tap met a bar");
+  await until(page, (id) => {
+    const { centres } = window.hyperbody.frame;
+    for (let at = 0; at < centres.length; at += 5) if (centres[at] === id) return Math.abs(centres[at + 4]) < 0.05;
+    return false;
+  }, body);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("a pressed stick teleports", async () => {
   const context = await withHeadset();
   const { page } = await open(context, server.address, { scene: "hello4d" });

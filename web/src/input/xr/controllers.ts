@@ -9,7 +9,8 @@ import { toWorld } from "../../app/slice-frame";
 import type { Frame } from "../../engine/protocol";
 import { strengthOf } from "../feedback";
 import { makePointer, Teleport } from "./pointer-visuals";
-import { WristPanel } from "./wrist-panel";
+import { HEIGHT, WristPanel } from "./wrist-panel";
+import { WristStrip } from "./wrist-strip";
 
 const DEAD_ZONE = 0.18;
 const PUSH_SPEED = 1.2;
@@ -27,20 +28,24 @@ interface Controller {
   grip: Vector3 | null;
   /** What was pressed to take it: only its release lets go. */
   by: "select" | "squeeze" | null;
+  /** What it has taken is the strip. */
+  onStrip: boolean;
   stickWasPressed: boolean;
 }
 
 export class Controllers {
   private readonly controllers: Controller[];
   private readonly panel: WristPanel;
+  private readonly strip: WristStrip;
   private readonly teleport = new Teleport();
 
   constructor(private readonly playground: Playground) {
     const { renderer, rig } = playground.stage;
     this.panel = new WristPanel(playground);
+    this.strip = new WristStrip(playground, this.panel.mesh, HEIGHT / 2);
     this.controllers = [0, 1].map((index) => {
       const space = renderer.xr.getController(index);
-      const controller: Controller = { space, source: null, hand: index === 0 ? HAND.left : HAND.right, grip: null, by: null, stickWasPressed: false };
+      const controller: Controller = { space, source: null, hand: index === 0 ? HAND.left : HAND.right, grip: null, by: null, onStrip: false, stickWasPressed: false };
       space.add(makePointer());
       rig.add(space);
       space.addEventListener("connected", ({ data }) => this.connect(controller, data));
@@ -72,6 +77,7 @@ export class Controllers {
       this.follow(controller);
       this.sticks(controller, seconds);
     }
+    this.strip.update();
     const wrist = this.wrist();
     this.panel.update(this.controllers.filter((controller) => controller.source && controller !== wrist).map(({ space }) => rayOf(space)));
   }
@@ -101,7 +107,14 @@ export class Controllers {
   private press(controller: Controller, way: "select" | "squeeze"): void {
     if (controller.by) return;
     const ray = rayOf(controller.space);
-    if (controller !== this.wrist() && this.panel.press(ray)) return;
+    if (controller !== this.wrist()) {
+      if (this.panel.press(ray)) return;
+      controller.onStrip = this.strip.press(ray);
+      if (controller.onStrip) {
+        controller.by = way;
+        return;
+      }
+    }
     const picked = this.playground.stage.pick(ray);
     if (!picked || this.playground.body(picked.body)?.kind !== "dynamic") return;
     controller.by = way;
@@ -113,11 +126,14 @@ export class Controllers {
   }
 
   private release(controller: Controller): void {
+    if (controller.onStrip) this.strip.release(rayOf(controller.space));
+    controller.onStrip = false;
     controller.grip = controller.by = null;
     this.playground.hands.release(controller.hand);
   }
 
   private follow(controller: Controller): void {
+    if (controller.onStrip) this.strip.move(rayOf(controller.space));
     if (!controller.grip) return;
     const point = controller.space.localToWorld(controller.grip.clone());
     this.playground.hands.moveTo(controller.hand, point.toArray());

@@ -12,7 +12,7 @@ import { offName } from "../../ui/axes";
 import { SLOW_FACTOR, SLOW_SHARE } from "../../ui/transport";
 
 const WIDTH = 0.3;
-const HEIGHT = 0.30625;
+export const HEIGHT = 0.30625;
 const PIXELS = { width: 720, height: 735 };
 const COLUMNS = 3;
 const HEADER = 126;
@@ -156,7 +156,7 @@ export class WristPanel {
   /** The number of the button; −1 beside them on the panel, null beside the panel. */
   private buttonAt(ray: Ray): number | null {
     const caster = new Raycaster(ray.origin, ray.direction);
-    const uv = this.mesh.visible ? caster.intersectObject(this.mesh)[0]?.uv : undefined;
+    const uv = this.mesh.visible ? caster.intersectObject(this.mesh, false)[0]?.uv : undefined;
     if (!uv) return null;
     const [x, y] = [uv.x * PIXELS.width, (1 - uv.y) * PIXELS.height - HEADER];
     if (y < 0) return -1;
