@@ -4,11 +4,13 @@
 //! polytopes are sums over faces and their normal cones.
 
 mod boundary;
+mod normals;
 mod orthant;
 mod rounded_box;
 mod rounded_polytope;
 
-pub(crate) use rounded_polytope::{Normals, orthogonal_part, simplex_content};
+pub(crate) use normals::{Normals, orthogonal_part};
+pub(crate) use rounded_polytope::simplex_content;
 
 use hyperbody_math::eigen::symmetric_eigen;
 use hyperbody_math::{Matrix, Pose, Rotation, Vector};

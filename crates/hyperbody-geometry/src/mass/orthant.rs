@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 
 use hyperbody_math::{Matrix, Vector, scalar};
 
-use super::rounded_polytope::orthogonal_part;
+use super::normals::orthogonal_part;
 use crate::quadrature::integrate;
 
 /// How far the two rules of [`integrate`] may be apart on an interval; a probability is then good to 1e-13 or so.

@@ -12,16 +12,17 @@
 //! a = −Σ_G ν σ_G / (m − 1),   B = (Π σ − Σ_G ν a_Gᵀ) / m.
 //!
 //! The solid angle σ itself is an angle for m = 2, Girard's excess for m = 3, and a sum over a triangulation of the
-//! cone from there on (see [`orthant`](super::orthant)). Nothing is approximated but integrals of analytic functions,
-//! to 1e-12.
+//! cone from there on (see [`orthant`](super::orthant)); of cones too narrow for that it is the volume that their sections
+//! add up to (see [`ConeCuts`]). Nothing is approximated but integrals of analytic functions, to 1e-12.
 
 use hyperbody_math::{Matrix, Vector, scalar};
 
 use super::MassProperties;
 use super::boundary::{Moments, of_polytope, symmetric};
+use super::normals::{Normals, angle_between, orthogonal_part};
 use super::orthant::ConeShares;
-use crate::error::GeometryErrorKind::{BadCount, Flat};
-use crate::tolerances::MAX_CONE_WORK;
+use crate::error::GeometryErrorKind::Flat;
+use crate::section::ConeCuts;
 use crate::volume::{factorial, unit_sphere};
 use crate::{FaceLattice, GeometryError, Polytope, Result};
 
@@ -36,81 +37,155 @@ struct Cone<const N: usize> {
     second: Matrix<N>,
 }
 
-/// What the cones of one rank need to know of the lattice and of the ranks above.
-pub(crate) struct Normals<'a, const N: usize> {
-    polytope: &'a Polytope<N>,
-    lattice: &'a FaceLattice,
-    /// By rank and face: the faces one rank higher around it.
-    cofaces: Vec<Vec<Vec<u32>>>,
-    /// By rank and face: the facets around it, ascending.
-    facets: Vec<Vec<Vec<u32>>>,
-}
-
 /// What the normal cones of all vertices may miss of all directions, in parts of them: more is noise.
 const MAX_MISSED: f64 = 1e-8;
 
+/// The same where they are measured by their sections. What is missed is missed of a ball within the body.
+const MAX_MISSED_BY_SECTIONS: f64 = 2e-7;
+
+/// What facets that are joined may change of the mass, in parts of it.
+const MAX_MOVED: f64 = 1e-6;
+
+/// Up to so many dimensions facets are joined only if they move by less than that. Beyond, to measure all cones by their sections could take
+/// minutes: they are joined however far that moves them, and the mass of a thin and uneven body can be off by as many parts as it is uneven.
+const MAX_MEASURED: usize = 4;
+
+/// Directions along which cones are measured by their sections, until one does: irrational, so that no lattice is met.
+const PHASES: [f64; 3] = [0.0, 1.0, 2.0];
+
 /// The properties of the rounded polytope at unit density.
 ///
-/// Normal cones of vertices whose facets differ in direction by what noise makes of one are too narrow to be measured. That shows,
-/// for the cones of all vertices together are all directions; then facets that noise has split are joined.
+/// Where noise has split facets, or the body is thin and uneven, normal cones are too narrow for sums over their simplicial parts. That
+/// shows, for the cones of all vertices together are all directions. Then facets are joined, if that moves them by noise only; of a thin
+/// body it can move parts that count. The cones of what is left are measured by their sections, which may be narrow.
 ///
 /// # Errors
-/// `BadCount` if its normal cones fall into more simplicial ones than [`MAX_CONE_WORK`] allows; `Flat` if they cannot be measured.
+/// `BadCount` if its normal cones fall into more simplicial ones than [`MAX_CONE_WORK`](crate::tolerances::MAX_CONE_WORK) allows;
+/// `Flat` if they cannot be measured.
 pub(super) fn properties<const N: usize>(polytope: &Polytope<N>, radius: f64) -> Result<MassProperties<N>> {
-    if let Some(properties) = measured(polytope, radius)? {
+    if let Some(properties) = by_shares(polytope, radius)? {
         return Ok(properties);
     }
     for joined in polytope.with_joined_facets() {
-        if let Some(properties) = measured(&joined, radius)? {
+        if N <= MAX_MEASURED && moved(polytope, &joined, radius) > MAX_MOVED {
+            break;
+        }
+        if let Some(properties) = by_shares(&joined, radius)? {
             return Ok(properties);
         }
     }
-    Err(GeometryError::new(
-        Flat,
-        "facets of a rounded polytope are so nearly parallel, or the whole is so thin, that the directions of its corners cannot be \
-         measured: give its vertices with more digits, leave out those that hardly stand out, or use the polytope without rounding",
-    ))
+    let by_sections = if N <= MAX_MEASURED { by_sections(polytope, radius) } else { None };
+    by_sections.ok_or_else(|| {
+        GeometryError::new(
+            Flat,
+            "facets of a rounded polytope are so nearly parallel, or the whole is so thin, that the directions of its corners cannot be \
+             measured: give its vertices with more digits, leave out those that hardly stand out, or use the polytope without rounding",
+        )
+    })
 }
 
-/// The same; `None` if the normal cones do not make up all directions.
-fn measured<const N: usize>(polytope: &Polytope<N>, radius: f64) -> Result<Option<MassProperties<N>>> {
+/// The properties by shares of simplicial cones; `None` if the normal cones do not make up all directions.
+fn by_shares<const N: usize>(polytope: &Polytope<N>, radius: f64) -> Result<Option<MassProperties<N>>> {
     let lattice = polytope.face_lattice();
     let normals = Normals::new(polytope, &lattice);
-    let work = normals.work();
-    if work > MAX_CONE_WORK {
-        return Err(GeometryError::new(
-            BadCount,
-            format!(
-                "a rounded polytope with {} facets in {N} dimensions takes {work} units of work for its solid angles; the \
-                 limit is {MAX_CONE_WORK}: use fewer vertices, or the polytope without rounding",
-                polytope.facets().len()
-            ),
-        ));
-    }
-    let reference = polytope.vertex_mean();
-    let core = of_polytope(polytope);
-    let arm = core.centre - reference;
-    let mut total = Moments {
-        volume: core.mass,
-        first: arm * core.mass,
-        second: core.second_moments + Matrix::outer(arm, arm) * core.mass,
-    };
+    normals.check_work()?;
     let mut shares = ConeShares::default();
-    let mut above: Vec<Cone<N>> = Vec::new();
-    for rank in (0..N).rev() {
-        let cones: Vec<Cone<N>> =
-            (0..lattice.faces(rank).len()).map(|face| normals.cone(rank, face, &above, &mut shares)).collect();
-        for (face, cone) in cones.iter().enumerate() {
-            let moments = face_moments(polytope, &lattice, rank, face, reference);
-            add_rounded_face(&mut total, &moments, cone, N - rank, radius);
-        }
-        above = cones;
+    let solid_angle = |rank: usize, face: usize, excess: f64| normals.shared_angle(rank, face, excess, &mut shares);
+    Ok(normals.rounded(radius, MAX_MISSED, solid_angle))
+}
+
+/// The same by the sections of the cones across a direction.
+fn by_sections<const N: usize>(polytope: &Polytope<N>, radius: f64) -> Option<MassProperties<N>> {
+    let lattice = polytope.face_lattice();
+    let normals = Normals::new(polytope, &lattice);
+    PHASES.into_iter().find_map(|phase| {
+        let direction = Vector::from_fn(|i| scalar::sin(phase + 1.7 * (i as f64 + 1.0))).normalize_or_zero();
+        let mut cuts = ConeCuts::new(&normals, direction)?;
+        normals.rounded(radius, MAX_MISSED_BY_SECTIONS, |rank, face, _| cuts.solid_angle(rank, face))
+    })
+}
+
+/// By what part of it the mass can change at most where facets are joined. If no vertex is farther than δ from the planes that it is
+/// taken for, and a ball of radius ρ fits in, all lies between the body and itself made larger by 1 + δ/ρ.
+fn moved<const N: usize>(polytope: &Polytope<N>, joined: &Polytope<N>, radius: f64) -> f64 {
+    let middle = joined.vertex_mean();
+    let (mut ball, mut distance) = (f64::INFINITY, 0.0_f64);
+    for facet in joined.facets() {
+        let above = |v: Vector<N>| facet.normal.dot(v) - facet.offset;
+        let outmost = polytope.vertices().iter().map(|&v| above(v)).fold(0.0, f64::max);
+        let inmost =
+            facet.vertices.as_slice().iter().map(|&v| above(joined.vertices()[v as usize])).fold(0.0, f64::min);
+        distance = distance.max(outmost - inmost);
+        ball = ball.min(-above(middle));
     }
-    let angle = above.iter().map(|cone| cone.angle).sum::<f64>() / unit_sphere(N);
-    let first = above.iter().fold(Vector::ZERO, |sum, cone| sum + cone.first);
-    let positive = above.iter().all(|cone| cone.angle >= -MAX_MISSED);
-    let whole = (angle - 1.0).abs() < MAX_MISSED && first.max_abs() < MAX_MISSED && positive;
-    Ok(whole.then(|| total.properties(reference)))
+    N as f64 * distance / (ball + radius)
+}
+
+impl<const N: usize> Normals<'_, N> {
+    /// The properties, with solid angles of cones of three dimensions and more by rank and face, and what Girard's excess says of them;
+    /// `None` if the cones of all vertices miss more than so much of all directions.
+    fn rounded(
+        &self,
+        radius: f64,
+        may_miss: f64,
+        mut solid_angle: impl FnMut(usize, usize, f64) -> f64,
+    ) -> Option<MassProperties<N>> {
+        let (polytope, lattice) = (self.polytope, self.lattice);
+        let reference = polytope.vertex_mean();
+        let core = of_polytope(polytope);
+        let arm = core.centre - reference;
+        let mut total = Moments {
+            volume: core.mass,
+            first: arm * core.mass,
+            second: core.second_moments + Matrix::outer(arm, arm) * core.mass,
+        };
+        let mut above: Vec<Cone<N>> = Vec::new();
+        for rank in (0..N).rev() {
+            let cones: Vec<Cone<N>> =
+                (0..lattice.faces(rank).len()).map(|face| self.cone(rank, face, &above, &mut solid_angle)).collect();
+            for (face, cone) in cones.iter().enumerate() {
+                let moments = face_moments(polytope, lattice, rank, face, reference);
+                add_rounded_face(&mut total, &moments, cone, N - rank, radius);
+            }
+            above = cones;
+        }
+        let angle = above.iter().map(|cone| cone.angle).sum::<f64>() / unit_sphere(N);
+        let first = above.iter().fold(Vector::ZERO, |sum, cone| sum + cone.first);
+        let positive = above.iter().all(|cone| cone.angle >= -may_miss);
+        let whole = (angle - 1.0).abs() < may_miss && first.max_abs() < may_miss && positive;
+        whole.then(|| total.properties(reference))
+    }
+
+    /// The normal cone of a face, from those of all faces one rank higher.
+    fn cone(
+        &self,
+        rank: usize,
+        face: usize,
+        above: &[Cone<N>],
+        solid_angle: &mut impl FnMut(usize, usize, f64) -> f64,
+    ) -> Cone<N> {
+        let m = N - rank;
+        if m == 1 {
+            let normal = self.facet_normal(face as u32);
+            return Cone { angle: 1.0, first: normal, second: Matrix::outer(normal, normal) };
+        }
+        let (basis, towards) = self.directions(rank, face);
+        let cofaces = &self.cofaces[rank][face];
+        let angle = match m {
+            2 => angle_between(self.facet_normal(cofaces[0]), self.facet_normal(cofaces[1])),
+            3 => solid_angle(rank, face, self.girard(face, rank, &towards)),
+            _ => solid_angle(rank, face, 0.0),
+        };
+        let projection = basis.iter().fold(Matrix::IDENTITY, |p, &b| p - Matrix::outer(b, b));
+        let mut cone = Cone { angle, first: Vector::ZERO, second: projection * angle };
+        for (&coface, &direction) in cofaces.iter().zip(&towards) {
+            let side = &above[coface as usize];
+            cone.first -= direction * (side.angle / (m - 1) as f64);
+            cone.second += Matrix::outer(direction, side.first) * -1.0;
+        }
+        cone.second = symmetric(&(cone.second * (1.0 / m as f64)));
+        cone
+    }
 }
 
 /// Adds the points nearest to a face, whose normal cone has dimension m.
@@ -151,165 +226,6 @@ pub(crate) fn simplex_content<const N: usize>(corners: &[Vector<N>]) -> f64 {
     content
 }
 
-impl<'a, const N: usize> Normals<'a, N> {
-    pub(crate) fn new(polytope: &'a Polytope<N>, lattice: &'a FaceLattice) -> Self {
-        let cofaces: Vec<Vec<Vec<u32>>> = (0..N - 1).map(|rank| lattice.cofaces(rank)).collect();
-        let mut facets: Vec<Vec<Vec<u32>>> = vec![(0..lattice.faces(N - 1).len() as u32).map(|f| vec![f]).collect()];
-        for around in cofaces.iter().rev() {
-            let above = &facets[facets.len() - 1];
-            let of_face = |cofaces: &Vec<u32>| {
-                let mut list: Vec<u32> = cofaces.iter().flat_map(|&c| above[c as usize].iter().copied()).collect();
-                list.sort_unstable();
-                list.dedup();
-                list
-            };
-            facets.push(around.iter().map(of_face).collect());
-        }
-        facets.reverse();
-        Self { polytope, lattice, cofaces, facets }
-    }
-
-    pub(crate) const fn lattice(&self) -> &'a FaceLattice {
-        self.lattice
-    }
-
-    /// The faces one rank higher around a face: their normal cones are the facets of its own.
-    pub(crate) fn cofaces(&self, rank: usize, face: usize) -> &[u32] {
-        &self.cofaces[rank][face]
-    }
-
-    pub(crate) fn facet_normal(&self, facet: u32) -> Vector<N> {
-        self.polytope.facets()[facet as usize].normal
-    }
-
-    /// The normal cone of a face, from those of all faces one rank higher.
-    fn cone(&self, rank: usize, face: usize, above: &[Cone<N>], shares: &mut ConeShares) -> Cone<N> {
-        let m = N - rank;
-        if m == 1 {
-            let normal = self.facet_normal(face as u32);
-            return Cone { angle: 1.0, first: normal, second: Matrix::outer(normal, normal) };
-        }
-        let (basis, towards) = self.directions(rank, face);
-        let cofaces = &self.cofaces[rank][face];
-        let angle = match m {
-            2 => angle_between(self.facet_normal(cofaces[0]), self.facet_normal(cofaces[1])),
-            3 => self.girard(face, rank, &towards),
-            _ => {
-                let cones = self.triangulation(rank, face);
-                let normals = |cone: &Vec<u32>| cone.iter().map(|&f| self.facet_normal(f)).collect::<Vec<_>>();
-                let share: f64 = cones.iter().map(|cone| shares.share(&normals(cone))).sum();
-                share * unit_sphere(m)
-            }
-        };
-        let projection = basis.iter().fold(Matrix::IDENTITY, |p, &b| p - Matrix::outer(b, b));
-        let mut cone = Cone { angle, first: Vector::ZERO, second: projection * angle };
-        for (&coface, &direction) in cofaces.iter().zip(&towards) {
-            let side = &above[coface as usize];
-            cone.first -= direction * (side.angle / (m - 1) as f64);
-            cone.second += Matrix::outer(direction, side.first) * -1.0;
-        }
-        cone.second = symmetric(&(cone.second * (1.0 / m as f64)));
-        cone
-    }
-
-    /// An orthonormal basis of the face's own directions, and for each coface the unit vector orthogonal to the face
-    /// that points into it.
-    pub(crate) fn directions(&self, rank: usize, face: usize) -> (Vec<Vector<N>>, Vec<Vector<N>>) {
-        let vertices = self.polytope.vertices();
-        let own = &self.lattice.faces(rank)[face].vertices;
-        let base = vertices[own[0] as usize];
-        let mut basis: Vec<Vector<N>> = Vec::with_capacity(rank);
-        for _ in 0..rank {
-            // The vertex farthest from the flat so far keeps the basis accurate.
-            let heights = own.iter().map(|&v| orthogonal_part(vertices[v as usize] - base, &basis));
-            let best = heights.fold(Vector::ZERO, |best, h| if h.norm_sq() > best.norm_sq() { h } else { best });
-            basis.push(best.normalize_or_zero());
-        }
-        let towards = self.cofaces[rank][face].iter().map(|&coface| {
-            let others = &self.lattice.faces(rank + 1)[coface as usize].vertices;
-            let heights = others.iter().map(|&v| orthogonal_part(vertices[v as usize] - base, &basis));
-            heights
-                .fold(Vector::ZERO, |best, h| if h.norm_sq() > best.norm_sq() { h } else { best })
-                .normalize_or_zero()
-        });
-        let towards = towards.collect();
-        (basis, towards)
-    }
-
-    /// Solid angle of a cone of dimension three: 2π less the outer angles between neighbouring sides.
-    fn girard(&self, face: usize, rank: usize, towards: &[Vector<N>]) -> f64 {
-        let cofaces = &self.cofaces[rank][face];
-        let mut angle = 2.0 * std::f64::consts::PI;
-        for (i, &a) in cofaces.iter().enumerate() {
-            for (j, &b) in cofaces.iter().enumerate().skip(i + 1) {
-                let (facets_a, facets_b) = (&self.facets[rank + 1][a as usize], &self.facets[rank + 1][b as usize]);
-                if facets_a.iter().any(|f| facets_b.contains(f)) {
-                    angle -= angle_between(towards[i], towards[j]);
-                }
-            }
-        }
-        angle
-    }
-
-    /// The normal cone cut into simplicial cones, each as facets whose normals are its edges: those of the cofaces
-    /// that are not in the first facet, joined to it.
-    fn triangulation(&self, rank: usize, face: usize) -> Vec<Vec<u32>> {
-        let facets = &self.facets[rank][face];
-        if facets.len() == N - rank {
-            return vec![facets.clone()];
-        }
-        let mut cones = Vec::new();
-        for &coface in &self.cofaces[rank][face] {
-            if !self.facets[rank + 1][coface as usize].contains(&facets[0]) {
-                for mut cone in self.triangulation(rank + 1, coface as usize) {
-                    cone.push(facets[0]);
-                    cones.push(cone);
-                }
-            }
-        }
-        cones
-    }
-}
-
-impl<const N: usize> Normals<'_, N> {
-    /// The simplicial cones of all triangulations, each counted by what its solid angle costs.
-    fn work(&self) -> u64 {
-        let mut counts = vec![1_u64; self.lattice.faces(N - 1).len()];
-        let mut work = 0_u64;
-        for rank in (0..N - 1).rev() {
-            let count = |face: usize| {
-                let facets = &self.facets[rank][face];
-                if facets.len() == N - rank {
-                    return 1;
-                }
-                let parts = self.cofaces[rank][face].iter().map(|&c| c as usize);
-                let opposite = parts.filter(|&c| !self.facets[rank + 1][c].contains(&facets[0]));
-                opposite.fold(0_u64, |sum, c| sum.saturating_add(counts[c]))
-            };
-            counts = (0..self.lattice.faces(rank).len()).map(count).collect();
-            // In tens of microseconds: elementary up to three dimensions, one integral for four and five, then two.
-            let cost = [0, 0, 0, 0, 1, 4].get(N - rank).copied().unwrap_or(100);
-            work = counts.iter().fold(work, |sum, &c| sum.saturating_add(c.saturating_mul(cost)));
-        }
-        work
-    }
-}
-
-/// What is left of `v` without its parts along orthonormal vectors; taken away twice, so that nothing is left of them.
-pub(crate) fn orthogonal_part<const N: usize>(mut v: Vector<N>, basis: &[Vector<N>]) -> Vector<N> {
-    for _ in 0..2 {
-        for &b in basis {
-            v -= b * b.dot(v);
-        }
-    }
-    v
-}
-
-/// The angle between unit vectors in [0, π], accurate also where it is small or close to π (W. Kahan).
-fn angle_between<const N: usize>(a: Vector<N>, b: Vector<N>) -> f64 {
-    2.0 * scalar::atan2((a - b).norm(), (a + b).norm())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -328,10 +244,12 @@ mod tests {
             let lattice = polytope.face_lattice();
             let normals = Normals::new(&polytope, &lattice);
             let mut shares = ConeShares::default();
+            let mut solid_angle =
+                |rank: usize, face: usize, excess: f64| normals.shared_angle(rank, face, excess, &mut shares);
             let mut above = Vec::new();
             for rank in (0..N).rev() {
                 let faces = 0..lattice.faces(rank).len();
-                above = faces.map(|face| normals.cone(rank, face, &above, &mut shares)).collect();
+                above = faces.map(|face| normals.cone(rank, face, &above, &mut solid_angle)).collect();
             }
             let angle: f64 = above.iter().map(|cone| cone.angle).sum::<f64>() / unit_sphere(N);
             let first = above.iter().fold(Vector::ZERO, |sum, cone| sum + cone.first);

@@ -133,8 +133,18 @@ pub(super) enum Seen {
     Across(f64),
 }
 
+impl Seen {
+    /// The volume of the cone in the unit ball.
+    fn volume(&self) -> f64 {
+        match self {
+            Self::Along(_, cut) => cut.volume(),
+            Self::Across(volume) => *volume,
+        }
+    }
+}
+
 /// The normal cones of a polytope, as one direction sees them.
-pub(super) struct ConeCuts<'a, const N: usize> {
+pub(crate) struct ConeCuts<'a, const N: usize> {
     normals: &'a Normals<'a, N>,
     direction: Vector<N>,
     /// Sines below this are none.
@@ -175,7 +185,7 @@ impl Side {
 
 impl<'a, const N: usize> ConeCuts<'a, N> {
     /// For a unit direction. `None` where the cones contradict each other.
-    pub(super) fn new(normals: &'a Normals<'a, N>, direction: Vector<N>) -> Option<Self> {
+    pub(crate) fn new(normals: &'a Normals<'a, N>, direction: Vector<N>) -> Option<Self> {
         let mut best: Option<(f64, Self)> = None;
         for blurred in BLURRED {
             let mut cuts = Self::seen_along(normals, direction, blurred);
@@ -224,10 +234,12 @@ impl<'a, const N: usize> ConeCuts<'a, N> {
             let direction = Vector::from_fn(component).normalize_or_zero();
             Box::new(Self { tries, ..Self::seen_along(normals, direction, 0.0) })
         });
-        match oblique.seen(rank, face) {
-            Seen::Along(_, cut) => cut.volume(),
-            Seen::Across(volume) => volume,
-        }
+        oblique.seen(rank, face).volume()
+    }
+
+    /// The solid angle of the normal cone of a face.
+    pub(crate) fn solid_angle(&mut self, rank: usize, face: usize) -> f64 {
+        (N - rank) as f64 * self.seen(rank, face).volume()
     }
 
     fn ray(&self, facet: usize) -> Seen {

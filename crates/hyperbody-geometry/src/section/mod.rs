@@ -30,6 +30,7 @@ mod solid;
 mod support;
 
 pub use approximate::{MAX_APPROXIMATION_VERTICES, approximate};
+pub(crate) use cone_cut::ConeCuts;
 pub use cut::SectionScratch;
 pub use frame::SliceFrame;
 pub use polytope::SectionPolytope;
