@@ -1,7 +1,7 @@
 // Panels: language, scenes dropped and broken, back through time, gravity, the gallery.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { DESKTOP, launch, open, serve, until, whereIs } from "./support.mjs";
+import { DESKTOP, launch, open, pictures, serve, until, whereIs } from "./support.mjs";
 
 let browser, server;
 before(async () => ([browser, server] = await Promise.all([launch(), serve()])));
@@ -207,7 +207,14 @@ test("what was written in the editor is kept aside when something else is droppe
   await until(page, () => window.hyperbody.sceneName === "dice5d");
   await page.keyboard.press("x");
   await until(page, () => document.querySelector("[data-testid=editor-text]").value.includes("Dice of five dimensions"));
-  await area.fill("an hour of work");
+  // What is written while the running scene's text is on its way stays.
+  await area.evaluate((element) => {
+    [...document.querySelectorAll("[role=dialog] button")].find(({ textContent }) => textContent.includes("Take the running scene")).click();
+    element.value = "an hour of work";
+    element.dispatchEvent(new InputEvent("input", { bubbles: true }));
+  });
+  await pictures(page, 20);
+  assert.equal(await area.inputValue(), "an hour of work");
   await drop(page, "not json at all");
   await until(page, () => document.querySelector("[data-testid=editor-text]").value === "not json at all");
   await page.getByRole("button", { name: "Bring mine back" }).click();

@@ -21,9 +21,12 @@ const aside = signal<string | null>(null);
 /** Under which name what is edited is kept already: it is kept there again, and everything else beside it. */
 const keptAs = signal<string | null>(null);
 const problem = signal<{ message: string; line: number | undefined } | null>(null);
+/** Counts what came into the editor: an answer that was asked for before the last of it comes too late. */
+let arrivals = 0;
 
 /** Puts a text into the editor; what somebody has written there is kept aside. */
 function put(source: string): void {
+  arrivals++;
   if (edited && text.value !== source && text.value.trim() !== "") aside.value = text.value;
   edited &&= text.value === source;
   text.value = source;
@@ -77,8 +80,11 @@ function keep(playground: Playground): void {
   playground.say(name === null ? t().storageClosed : t().sceneSaved(name));
 }
 
+/** Puts the running scene's text into the editor, unless somebody writes or opens another before it arrives. */
 async function takeCurrent(playground: Playground): Promise<void> {
+  const asked = ++arrivals;
   const answer = await playground.client.request("sceneText", {});
+  if (asked !== arrivals) return;
   put(answer.text);
   keptAs.value = null;
   problem.value = null;
@@ -115,6 +121,7 @@ function takeFile(found: string): void {
 }
 
 function write(written: string): void {
+  arrivals++;
   text.value = written;
   edited = true;
 }
