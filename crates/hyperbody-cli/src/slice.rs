@@ -102,15 +102,15 @@ pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
         return project(arguments, &target, &file, &planes);
     }
     let written = match file.dimension {
-        4 => surface(down::<4, 3>(solids(&file)?, planes)?.0, 1, arguments)?,
+        4 => surface(down::<4, 3>(solids(&file)?, &planes)?.0, 1, arguments)?,
         5 => {
-            let (solids, planes) = down::<5, 4>(solids(&file)?, planes)?;
-            surface(down::<4, 3>(solids, planes)?.0, 2, arguments)?
+            let (solids, planes) = down::<5, 4>(solids(&file)?, &planes)?;
+            surface(down::<4, 3>(solids, &planes)?.0, 2, arguments)?
         }
         _ => {
-            let (solids, planes) = down::<6, 5>(solids(&file)?, planes)?;
-            let (solids, planes) = down::<5, 4>(solids, planes)?;
-            surface(down::<4, 3>(solids, planes)?.0, 3, arguments)?
+            let (solids, planes) = down::<6, 5>(solids(&file)?, &planes)?;
+            let (solids, planes) = down::<5, 4>(solids, &planes)?;
+            surface(down::<4, 3>(solids, &planes)?.0, 3, arguments)?
         }
     };
     target.write(&content(&written.surface, target.extension()))?;
@@ -196,8 +196,13 @@ fn load(path: &Path, dimension: Option<u8>) -> Result<ShapeFile, Failure> {
     Ok(file)
 }
 
-/// A hyperplane in coordinates of as many dimensions as there are still.
-type Plane = (Vec<f64>, f64);
+/// A hyperplane in coordinates of as many dimensions as there are still: all points p with normal·p = offset.
+struct Plane {
+    normal: Vec<f64>,
+    offset: f64,
+    /// The offset as it was asked for, before the origin moved into other hyperplanes.
+    asked: f64,
+}
 
 /// One hyperplane for each dimension above three.
 fn hyperplanes(arguments: &SliceArguments, dimension: usize) -> Result<Vec<Plane>, Failure> {
@@ -225,7 +230,8 @@ fn hyperplanes(arguments: &SliceArguments, dimension: usize) -> Result<Vec<Plane
             normal.len()
         ));
     }
-    Ok(normals.into_iter().zip(offsets).collect())
+    let plane = |(normal, offset)| Plane { normal, offset, asked: offset };
+    Ok(normals.into_iter().zip(offsets).map(plane).collect())
 }
 
 /// Pieces with the first of the numbers that their faces have.
@@ -247,16 +253,16 @@ where
 /// Cuts with the first hyperplane; the others follow in its coordinates.
 fn down<const N: usize, const M: usize>(
     solids: Pieces<N>,
-    planes: Vec<Plane>,
+    planes: &[Plane],
 ) -> Result<(Pieces<M>, Vec<Plane>), Failure> {
-    let (frame, lower) = frame_and_rest::<N, M>(&planes)?;
+    let (frame, lower) = frame_and_rest::<N, M>(planes)?;
     let (firsts, solids): (Vec<u32>, Vec<Solid<N>>) = solids.into_iter().unzip();
     let cut = |((first, solid), cut): ((u32, &Solid<N>), bool)| {
         Some((first, if cut { solid.section::<M>(&frame)? } else { return None }))
     };
     let left: Pieces<M> = firsts.into_iter().zip(&solids).zip(cut_pieces(&solids, &frame)).filter_map(cut).collect();
     if left.is_empty() {
-        return Err(Failure::Input(missed(&solids, frame.normal(), frame.offset())));
+        return Err(Failure::Input(missed(&solids, &planes[0], &frame)));
     }
     Ok((left, lower))
 }
@@ -264,34 +270,39 @@ fn down<const N: usize, const M: usize>(
 /// The first hyperplane, and the others in its coordinates.
 fn frame_and_rest<const N: usize, const M: usize>(planes: &[Plane]) -> Result<(SliceFrame<N>, Vec<Plane>), Failure> {
     let vector = |numbers: &[f64]| Vector::<N>::from_slice(numbers).unwrap_or(Vector::ZERO);
-    let Some(((normal, offset), rest)) = planes.split_first() else {
+    let Some((first, rest)) = planes.split_first() else {
         return Err(Failure::Work("a hyperplane is missing".to_owned()));
     };
-    let normal = vector(normal);
-    let frame = SliceFrame::from_normal(normal, *offset).map_err(|error| Failure::Input(error.to_string()))?;
+    let frame = SliceFrame::from_normal(vector(&first.normal), first.offset)
+        .map_err(|error| Failure::Input(error.to_string()))?;
     let mut lower = Vec::with_capacity(rest.len());
-    for (other, other_offset) in rest {
-        let other = vector(other);
+    for plane in rest {
+        let other = vector(&plane.normal);
         let within = frame.direction_to_slice::<M>(other);
         if within.norm() < 1e-9 * other.norm() {
             return Err(Failure::Input("two of the normals are parallel: they leave no section in 3D".to_owned()));
         }
-        let offset = other_offset - other.dot(frame.space_from_slice().translation);
-        lower.push((within.iter().collect(), offset));
+        let offset = plane.offset - other.dot(frame.space_from_slice().translation);
+        lower.push(Plane { normal: within.iter().collect(), offset, asked: plane.asked });
     }
     Ok((frame, lower))
 }
 
-/// Says where the hyperplane would have met something.
-fn missed<const N: usize>(solids: &[Solid<N>], normal: Vector<N>, offset: f64) -> String {
+/// Says where the hyperplane would have met something, in units of the offset that was asked for.
+fn missed<const N: usize>(solids: &[Solid<N>], plane: &Plane, frame: &SliceFrame<N>) -> String {
     let reach = |direction: Vector<N>| {
         let reaches = solids.iter().map(|solid| solid.reach(direction));
         reaches.fold(f64::NEG_INFINITY, f64::max)
     };
+    let unit = frame.normal();
+    // The length of the normal without the overflow of squares.
+    let length = unit.iter().zip(&plane.normal).map(|(c, own)| c * own).sum::<f64>();
+    let asked = |distance: f64| number(plane.asked - plane.offset + length * distance);
     format!(
-        "the hyperplane at offset {offset} leaves nothing of the shape, which lies between {} and {} along this normal",
-        number(-reach(-normal)),
-        number(reach(normal))
+        "the hyperplane at offset {} leaves nothing of what there is to cut, where normal·p lies between {} and {}",
+        plane.asked,
+        asked(-reach(-unit)),
+        asked(reach(unit))
     )
 }
 

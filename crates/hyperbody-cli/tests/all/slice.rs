@@ -204,6 +204,7 @@ fn files_that_are_not_convex_and_far_ones_are_cut() {
 #[test]
 fn what_cannot_be_cut_is_refused_with_the_reason() {
     let shape = file("slice/cube4.json", r#"{"box": {"half_extents": [1, 1, 1, 1]}}"#);
+    let shape5 = file("slice/cube5.json", r#"{"box": {"half_extents": [1, 1, 1, 1, 1]}}"#);
     let flat = file("slice/cube3.json", r#"{"box": {"half_extents": [1, 1, 1]}}"#);
     let floor = file("slice/floor.json", r#"{"half_space": {"normal": [0, 1, 0, 0], "offset": 0}}"#);
     let mesh = file("slice/mesh.stl", "solid mesh");
@@ -211,6 +212,14 @@ fn what_cannot_be_cut_is_refused_with_the_reason() {
     let out = path(&file("slice/refused.stl", "old"));
     let cases: &[(&str, &[&str], &str)] = &[
         (&path(&shape), &["--offset", "1.5"], "lies between -1 and 1"),
+        (&path(&shape), &["--normal", "1,1,1,1", "--offset", "4.5"], "offset 4.5 leaves nothing"),
+        (&path(&shape), &["--normal", "1,1,1,1", "--offset", "4.5"], "lies between -4 and 4"),
+        // |x + y + z + w| ≤ 4 where v = 0.5, times two and one more.
+        (
+            &path(&shape5),
+            &["--normal", "0,0,0,0,2", "--offset", "1", "--normal", "2,2,2,2,2", "--offset", "-7.5"],
+            "offset -7.5 leaves nothing of what there is to cut, where normal·p lies between -7 and 9",
+        ),
         (&path(&shape), &["--normal", "1,2,3"], "has 3 numbers"),
         (&path(&shape), &["--normal", "1,2,x,3"], "\"x\" is not a number"),
         (&path(&shape), &["--normal", "0,0,0,0"], "not zero"),
