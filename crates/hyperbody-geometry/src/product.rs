@@ -3,9 +3,14 @@
 //! A point belongs to A × B if its coordinates on A's axes lie in A and those on B's axes in B. Supports, volumes and
 //! second moments of the factors stand side by side. Products of polytopes are polytopes, with each facet a facet of one
 //! factor times the others. Products with curved factors keep their exact support function, mass and sections; contacts see
-//! them as the product of polytopes that follow the curved factors as closely as [`Product::faceting`] says.
+//! them as the product of polytopes that follow the curved factors as closely as [`Product::faceting`] says. Of factors of several
+//! convex pieces, such as stars, every piece of one is multiplied with every piece of the others (`pieces`).
+
+pub(crate) mod pieces;
 
 use std::sync::Arc;
+
+pub use pieces::Factor;
 
 use hyperbody_math::{Matrix, Vector};
 
@@ -19,9 +24,9 @@ use crate::shape::Piece;
 use crate::tolerances::{COARSENING, COARSEST, FACETING, MAX_PRODUCT_VERTICES, MOST_COARSER};
 use crate::{Convex, Core, GeometryError, Polytope, Result, Shape};
 
-/// One factor of a product: a convex shape of lower dimension on some of the axes.
+/// A convex shape of lower dimension on some of the axes.
 #[derive(Clone, Debug)]
-pub struct Factor {
+pub(crate) struct ConvexFactor {
     axes: Vec<usize>,
     /// The core's vertices, one behind the other; the factor is all points at most `radius` away from their hull.
     corners: Vec<f64>,
@@ -94,24 +99,12 @@ struct FactorFacet {
     neighbours: Vec<u32>,
 }
 
-impl Factor {
-    /// A segment from −`half_length` to `half_length` on one axis.
-    ///
-    /// # Errors
-    /// If the half-length is not a number of metres in the range of lengths.
-    pub fn segment(axis: usize, half_length: f64) -> Result<Self> {
-        Self::new([axis], &Shape::<1>::cuboid([half_length])?)
-    }
-
-    /// A shape of `K` dimensions whose i-th axis is axis `axes[i]` of the product. It has to be convex and bounded.
-    ///
-    /// # Errors
-    /// `Unsupported` for half-spaces, compounds, cones and products (give the factors of a product one by one), and for curved shapes
-    /// of more than four dimensions, which contacts would need too many facets for.
-    pub fn new<const K: usize>(axes: [usize; K], shape: &Shape<K>) -> Result<Self> {
+impl ConvexFactor {
+    /// A convex and bounded shape; errors as [`Factor::new`].
+    pub(crate) fn new<const K: usize>(axes: [usize; K], shape: &Shape<K>) -> Result<Self> {
         let refuse = |what: &str| Err(GeometryError::new(Unsupported, format!("a factor of a product is {what}")));
         let convex = match shape {
-            Shape::Compound { .. } => return refuse("a compound: make a compound of products instead"),
+            Shape::Compound { .. } => return refuse("a compound where a convex shape should be"),
             Shape::Product(_) => return refuse("a product: give its factors one by one"),
             Shape::Pyramid(_) => return refuse("a cone, which is not supported there: use a pyramid over a polytope"),
             _ => match shape.pieces().pop() {
@@ -154,6 +147,11 @@ impl Factor {
         let opposite: Vec<f64> = unit.iter().map(|c| -c).collect();
         let range = [-self.reach(&opposite), self.reach(&unit)];
         Some(Term { weight, range, section: self.measure.section_function(&unit) })
+    }
+
+    /// Whether its faces are flat.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.faceting == 0.0
     }
 
     pub(crate) fn axes(&self) -> &[usize] {
@@ -304,7 +302,7 @@ impl Faceted {
 /// A product with at least one curved factor.
 #[derive(Clone, Debug)]
 pub struct Product<const N: usize> {
-    factors: Vec<Factor>,
+    factors: Vec<ConvexFactor>,
     faceted: Arc<Polytope<N>>,
     faceting: f64,
 }
@@ -332,7 +330,7 @@ impl<const N: usize> SupportMap<N> for Product<N> {
 }
 
 impl<const N: usize> Product<N> {
-    pub(crate) fn factors(&self) -> &[Factor] {
+    pub(crate) fn factors(&self) -> &[ConvexFactor] {
         &self.factors
     }
 
@@ -362,39 +360,19 @@ impl<const N: usize> Product<N> {
     }
 }
 
-impl<const N: usize> Shape<N> {
-    /// The product of shapes of lower dimension, each on axes of its own: a polytope if all factors are, and otherwise a
-    /// [`Shape::Product`]. Where contacts would need more than [`MAX_PRODUCT_VERTICES`] vertices, curved factors get fewer than
-    /// usual: [`Product::faceting`] says how far that is from the shape.
-    ///
-    /// # Errors
-    /// `BadCount` unless there are two factors or more whose axes are all axes once, or if even with fewer facets contacts would
-    /// need more than [`MAX_PRODUCT_VERTICES`] vertices.
-    pub fn product(factors: Vec<Factor>) -> Result<Self> {
-        let mut axes: Vec<usize> = factors.iter().flat_map(|factor| factor.axes.iter().copied()).collect();
-        axes.sort_unstable();
-        if factors.len() < 2 || axes != (0..N).collect::<Vec<_>>() {
-            return Err(GeometryError::new(
-                BadCount,
-                format!(
-                    "a product has {} factors on the axes {axes:?}: it needs two or more, whose axes are 0 to {} once each",
-                    factors.len(),
-                    N - 1
-                ),
-            ));
-        }
-        let factors = within_limit(factors)?;
-        let polytope = Arc::new(multiply::<N>(&factors)?);
-        let faceting = factors.iter().map(|factor| factor.faceting).fold(0.0, f64::max);
-        if factors.iter().all(|factor| factor.faceting == 0.0) {
-            return Self::polytope(polytope);
-        }
-        Ok(Self::Product(Arc::new(Product { factors, faceted: polytope, faceting })))
+/// The product of convex factors, whose axes are all axes once.
+fn of_convex<const N: usize>(factors: Vec<ConvexFactor>) -> Result<Shape<N>> {
+    let factors = within_limit(factors)?;
+    let polytope = Arc::new(multiply::<N>(&factors)?);
+    let faceting = factors.iter().map(|factor| factor.faceting).fold(0.0, f64::max);
+    if factors.iter().all(ConvexFactor::is_flat) {
+        return Shape::polytope(polytope);
     }
+    Ok(Shape::Product(Arc::new(Product { factors, faceted: polytope, faceting })))
 }
 
 /// The factors with as many facets as their product has room for.
-fn within_limit(mut factors: Vec<Factor>) -> Result<Vec<Factor>> {
+fn within_limit(mut factors: Vec<ConvexFactor>) -> Result<Vec<ConvexFactor>> {
     let mut coarser = 1.0;
     while vertex_counts(&factors).iter().product::<usize>() > MAX_PRODUCT_VERTICES && coarser < MOST_COARSER {
         coarser *= COARSENING;
@@ -407,12 +385,12 @@ fn within_limit(mut factors: Vec<Factor>) -> Result<Vec<Factor>> {
     Ok(factors)
 }
 
-fn vertex_counts(factors: &[Factor]) -> Vec<usize> {
+fn vertex_counts(factors: &[ConvexFactor]) -> Vec<usize> {
     factors.iter().map(|factor| factor.faceted.vertices.len() / factor.axes.len()).collect()
 }
 
 /// The product of the factors' polytopes. Vertex numbers count through the factors, the first one fastest.
-fn multiply<const N: usize>(factors: &[Factor]) -> Result<Polytope<N>> {
+fn multiply<const N: usize>(factors: &[ConvexFactor]) -> Result<Polytope<N>> {
     let counts = vertex_counts(factors);
     let total = counts.iter().fold(1_usize, |product, &count| product.saturating_mul(count));
     if total > MAX_PRODUCT_VERTICES {

@@ -6,11 +6,12 @@
 
 use std::sync::Arc;
 
-use hyperbody_math::{Matrix, Vector};
+use hyperbody_math::{Matrix, Pose, Vector};
 
-use crate::error::GeometryErrorKind::BadCount;
+use crate::error::GeometryErrorKind::{BadCount, Unsupported};
 use crate::mass::MassProperties;
-use crate::product::Factor;
+use crate::product::pieces::{FactorPiece, in_place};
+use crate::product::{ConvexFactor, Factor};
 use crate::quadrature::integrate_between;
 use crate::section::SupportMap;
 use crate::shape::check_length;
@@ -20,7 +21,7 @@ use crate::{GeometryError, Polytope, Result, Shape};
 /// sections are exact.
 #[derive(Clone, Debug)]
 pub struct Pyramid<const N: usize> {
-    base: Factor,
+    base: ConvexFactor,
     /// The axis of the height.
     up: usize,
     height: f64,
@@ -41,7 +42,7 @@ impl<const N: usize> Pyramid<N> {
     }
 
     /// Base and height, to be stored.
-    pub(crate) fn definition(&self) -> (&Factor, f64) {
+    pub(crate) fn definition(&self) -> (&ConvexFactor, f64) {
         (&self.base, self.height)
     }
 
@@ -108,11 +109,11 @@ impl<const N: usize> SupportMap<N> for Pyramid<N> {
 impl<const N: usize> Shape<N> {
     /// The pyramid over a base of `N − 1` dimensions, `height` metres high along the one axis that the base does not have: the
     /// base lies at −height/2 there and the apex, over the origin of the base, at height/2. A polytope if the base is one, and
-    /// otherwise a [`Shape::Pyramid`], a cone.
+    /// otherwise a [`Shape::Pyramid`], a cone. A base of several pieces makes a compound of the pyramids over them.
     ///
     /// # Errors
-    /// `BadCount` if the base has not all axes but one; `BadNumber` if the height is no length; otherwise as
-    /// [`Polytope::from_points`].
+    /// `BadCount` if the base has not all axes but one; `BadNumber` if the height is no length; `Unsupported` if a curved part of the
+    /// base stands beside the origin; otherwise as [`Polytope::from_points`].
     ///
     /// ```
     /// use hyperbody_geometry::Shape;
@@ -135,17 +136,36 @@ impl<const N: usize> Shape<N> {
                 format!("the base of a pyramid has the axes {axes:?}: it needs all but one of the {N}"),
             ));
         };
-        let mut points = base.faceted_vertices::<N>();
-        points.iter_mut().for_each(|point| point[*up] = -0.5 * height);
-        points.push(Vector::unit(*up) * (0.5 * height));
-        let mut polytope = Polytope::from_points(&points)?;
-        if polytope.vertices().len() == points.len() {
-            polytope = polytope.standing_for(base.round_part(1, points.len() - 1).into_iter().collect());
-        }
-        let polytope = Arc::new(polytope);
-        if base.faceting() == 0.0 {
-            return Self::polytope(polytope);
-        }
-        Ok(Self::Pyramid(Arc::new(Pyramid { base, up: *up, height, faceted: polytope })))
+        in_place(base.pieces().iter().map(|piece| over_piece(piece, *up, height)).collect::<Result<_>>()?)
     }
+}
+
+/// The pyramid over one piece of the base, and where it stands. A flat piece lies where it stands, because all have one apex.
+fn over_piece<const N: usize>(piece: &FactorPiece, up: usize, height: f64) -> Result<(Pose<N>, Shape<N>)> {
+    let pose = piece.pose::<N>();
+    if piece.convex.is_flat() {
+        let vertices = piece.convex.faceted_vertices::<N>();
+        let placed = vertices.into_iter().map(|vertex| pose.transform_point(vertex)).collect();
+        return Ok((Pose::IDENTITY, Shape::polytope(Arc::new(over_points(placed, up, height)?))?));
+    }
+    if !piece.is_centred() {
+        let message =
+            "a curved part of the base of a pyramid stands beside the origin, over which the apex is: move it there";
+        return Err(GeometryError::new(Unsupported, message));
+    }
+    let base = piece.convex.clone();
+    let points = base.faceted_vertices::<N>();
+    let count = points.len();
+    let mut polytope = over_points(points, up, height)?;
+    if polytope.vertices().len() == count + 1 {
+        polytope = polytope.standing_for(base.round_part(1, count).into_iter().collect());
+    }
+    Ok((pose, Shape::Pyramid(Arc::new(Pyramid { base, up, height, faceted: Arc::new(polytope) }))))
+}
+
+/// The pyramid over the hull of points.
+fn over_points<const N: usize>(mut points: Vec<Vector<N>>, up: usize, height: f64) -> Result<Polytope<N>> {
+    points.iter_mut().for_each(|point| point[up] = -0.5 * height);
+    points.push(Vector::unit(up) * (0.5 * height));
+    Polytope::from_points(&points)
 }

@@ -7,7 +7,7 @@ use hyperbody_math::Vector;
 
 use super::{BytesError, Reader, Stored, Writer};
 use crate::polytope::Facet;
-use crate::product::{Factor, Product};
+use crate::product::{ConvexFactor, Factor, Product};
 use crate::pyramid::Pyramid;
 use crate::tolerances::MAX_LENGTH;
 use crate::{GeometryError, Polytope, Shape};
@@ -212,7 +212,7 @@ fn check_polytope<const N: usize>(vertices: &[Vector<N>], facets: &[Facet<N>]) -
     Ok(())
 }
 
-impl Stored for Factor {
+impl Stored for ConvexFactor {
     fn write(&self, out: &mut Writer) {
         let (axes, definition) = self.definition();
         out.length(axes.len());
@@ -237,13 +237,13 @@ impl Stored for Factor {
     }
 }
 
-fn read_factor<const K: usize>(axes: &[u32], definition: &[u8], from: &Reader<'_>) -> Result<Factor, BytesError> {
+fn read_factor<const K: usize>(axes: &[u32], definition: &[u8], from: &Reader<'_>) -> Result<ConvexFactor, BytesError> {
     let mut inner = Reader::new(definition);
     let shape = Shape::<K>::read(&mut inner).and_then(|shape| inner.finish().map(|()| shape));
     let shape = shape.map_err(|error| from.error(format!("a factor: {error}")))?;
     let mut own = [0; K];
     own.iter_mut().zip(axes).for_each(|(own, &axis)| *own = axis as usize);
-    refused(Factor::new(own, &shape), from)
+    refused(ConvexFactor::new(own, &shape), from)
 }
 
 impl<const N: usize> Stored for Product<N> {
@@ -253,8 +253,8 @@ impl<const N: usize> Stored for Product<N> {
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
-        let factors: Vec<Factor> = Stored::read(from)?;
-        match refused(Shape::product(factors), from)? {
+        let factors: Vec<ConvexFactor> = Stored::read(from)?;
+        match refused(Shape::product(factors.into_iter().map(Factor::from).collect()), from)? {
             Shape::Product(product) => Ok(Arc::unwrap_or_clone(product)),
             _ => Err(from.error("a product has no curved factor")),
         }
@@ -269,8 +269,8 @@ impl<const N: usize> Stored for Pyramid<N> {
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
-        let (base, height): (Factor, f64) = Stored::read(from)?;
-        match refused(Shape::pyramid(base, height), from)? {
+        let (base, height): (ConvexFactor, f64) = Stored::read(from)?;
+        match refused(Shape::pyramid(Factor::from(base), height), from)? {
             Shape::Pyramid(pyramid) => Ok(Arc::unwrap_or_clone(pyramid)),
             _ => Err(from.error("a cone has a flat base")),
         }

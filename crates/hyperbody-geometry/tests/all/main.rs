@@ -7,6 +7,7 @@ mod mass;
 mod meshes;
 mod off;
 mod products;
+mod products_of_pieces;
 mod projections;
 mod pyramids;
 mod regular;
