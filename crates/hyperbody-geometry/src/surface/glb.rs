@@ -17,9 +17,14 @@ impl Surface {
         let (mut lower, mut upper) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for (triangle, source) in self.triangles() {
             let corners = triangle.map(|corner| self.single(corner));
-            let normal = unit_normal(&corners);
-            if normal == [0.0; 3] {
+            let [a, b, c] = corners;
+            if a == b || b == c || c == a {
                 continue;
+            }
+            // What single precision makes a line of still keeps its neighbours together.
+            let mut normal = unit_normal(&corners);
+            if normal == [0.0; 3] {
+                normal = [0.0, 0.0, 1.0];
             }
             for corner in corners {
                 for (axis, number) in corner.into_iter().enumerate() {

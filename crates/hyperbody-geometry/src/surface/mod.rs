@@ -1,7 +1,11 @@
 //! Surfaces in three dimensions: what screens and printers take. A special of that dimension, and the end of every chain of
 //! sections.
 
+mod ears;
 mod glb;
+mod loops;
+mod seams;
+mod sheets;
 mod text;
 mod walls;
 
@@ -113,7 +117,11 @@ fn faces_inward(polytope: &SectionPolytope<3>, corners: &[u32]) -> bool {
     let mut normal = Vector::<3>::ZERO;
     for pair in corners.windows(2) {
         let (a, b) = (at(pair[0]) - base, at(pair[1]) - base);
-        normal += Vector([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]);
+        normal += cross(a, b);
     }
     normal.dot(base - polytope.centre()) < 0.0
+}
+
+fn cross(a: Vector<3>, b: Vector<3>) -> Vector<3> {
+    Vector([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 }

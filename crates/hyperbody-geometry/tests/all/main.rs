@@ -1,5 +1,6 @@
 //! Every integration test of hyperbody-geometry in one program: engine code generic in the dimension is compiled once for all of them.
 
+mod closed_sections;
 mod common;
 mod hull;
 mod hull_noise;
