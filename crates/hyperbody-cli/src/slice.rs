@@ -28,7 +28,8 @@ use project::Eye;
     The axes of the section are those of the shape after the shortest turn that takes its last axis to the normal: across \
     w, they are x, y and z; across −w the turn is half a turn in the plane xw, so that x points back. Faces keep the number of \
     the cell of a convex shape that they were cut from: as groups in .obj and as colours in .glb. Shapes that are not convex are \
-    cut as convex pieces, without the walls on which they meet, and faces have numbers of cells of the pieces.")]
+    cut as convex pieces and written as one closed surface without the walls on which they meet; faces have numbers of cells of the \
+    pieces, one that several share the smallest.")]
 pub(crate) struct SliceArguments {
     /// The shape: an OFF file, the shape of a scene as .json, or the name of a regular polytope of circumradius 1
     pub(crate) file: PathBuf,
@@ -80,7 +81,7 @@ struct Report {
     volume: f64,
     /// What the faces enclose, in m³.
     enclosed: f64,
-    /// Convex pieces, each with a surface of its own.
+    /// Convex pieces that were cut.
     pieces: usize,
 }
 

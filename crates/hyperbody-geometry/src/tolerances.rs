@@ -81,7 +81,7 @@ pub(crate) const COARSEST: f64 = 0.3;
 /// Most vertices of a product: finding the edges takes time with the square of it, seconds here.
 pub const MAX_PRODUCT_VERTICES: usize = 4096;
 
-/// Most convex pieces of a product: each is a polytope with facets of its own, of which this many take seconds and a gigabyte.
+/// Most convex pieces of a product: more than the largest star has cells, and each is a polytope of its own that collides.
 pub const MAX_PRODUCT_PIECES: usize = 1 << 16;
 
 /// Most work for the solid angles of a rounded polytope, in tens of microseconds: about ten seconds. All regular

@@ -201,6 +201,31 @@ fn files_that_are_not_convex_and_far_ones_are_cut() {
     assert!((number(&report["volume"]) / ball - 1.0).abs() < 0.01, "{report}");
 }
 
+/// What `slice` writes, `inspect` reads: a closed surface around the volume that the section has.
+#[test]
+fn sections_of_several_pieces_are_closed_surfaces() {
+    let pentagram = |axes: &str| {
+        format!(r#"{{"shape": {{"star": {{"regular": "{{5/2}}", "circumradius": 1}}}}, "axes": "{axes}"}}"#)
+    };
+    let duoprism = format!(r#"{{"product": {{"factors": [{}, {}]}}}}"#, pentagram("xy"), pentagram("zw"));
+    let duoprism = file("slice/star-duoprism.json", duoprism);
+    let duoprism = duoprism.to_str().expect("UTF-8");
+    // The outline of a pentagram is ten triangles with sides 1 and 1/φ².
+    let area = 2.5 * (3.0 - 5_f64.sqrt()) * (std::f64::consts::PI / 5.0).sin();
+    let weighed = number(&json_of(&["inspect", duoprism, "--json"])["volume"]);
+    assert!((weighed / (area * area) - 1.0).abs() < 1e-12, "{weighed}");
+    let out = file("slice/closed.off", "");
+    let out = out.to_str().expect("UTF-8");
+    let oblique = &["--normal", "1,2,3,-1", "--offset", "0.3"][..];
+    for (shape, more) in
+        [("{5/2,5,3}", &[][..]), ("{5/2,5,3}", oblique), (duoprism, &["--offset", "0.1"]), (duoprism, oblique)]
+    {
+        let report = json_of(&[&["slice", shape, "-o", out, "--json"], more].concat());
+        let inspected = number(&json_of(&["inspect", out, "--json"])["volume"]);
+        assert!((inspected / number(&report["volume"]) - 1.0).abs() < 1e-9, "{shape} {more:?}: {inspected}, {report}");
+    }
+}
+
 #[test]
 fn what_cannot_be_cut_is_refused_with_the_reason() {
     let shape = file("slice/cube4.json", r#"{"box": {"half_extents": [1, 1, 1, 1]}}"#);

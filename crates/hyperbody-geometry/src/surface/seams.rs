@@ -119,15 +119,11 @@ impl Edges {
         let mut within: Vec<usize> = polygons.flat_map(sides).filter_map(|side| self.index(side)).collect();
         within.sort_unstable();
         within.dedup();
-        let range = |edge: usize| {
-            let [a, b] = self.ends[edge].map(|corner| flat(places.at(corner)));
-            (a.min(b), a.max(b))
-        };
         let mut ranges: Vec<(Vector<2>, Vector<2>, usize)> = within
             .iter()
             .map(|&edge| {
-                let (low, high) = range(edge);
-                (low, high, edge)
+                let [a, b] = self.ends[edge].map(|corner| flat(places.at(corner)));
+                (a.min(b), a.max(b), edge)
             })
             .collect();
         ranges.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.2.cmp(&b.2)));
@@ -169,9 +165,9 @@ impl Edges {
                 last = corner;
             };
             if a < b {
-                on.iter().for_each(|&c| go(c))
+                on.iter().for_each(|&c| go(c));
             } else {
-                on.iter().rev().for_each(|&c| go(c))
+                on.iter().rev().for_each(|&c| go(c));
             }
             go(b);
         }

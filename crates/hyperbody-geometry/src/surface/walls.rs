@@ -151,6 +151,13 @@ fn straightened(lines: &mut [Vec<[u32; 2]>], places: &Places) {
 }
 
 impl Surface {
+    /// The longest side of the box around all vertices.
+    fn extent(&self) -> f64 {
+        let low = self.vertices.iter().fold(Vector::splat(f64::INFINITY), |low: Vector<3>, &v| low.min(v));
+        let high = self.vertices.iter().fold(Vector::splat(f64::NEG_INFINITY), |high: Vector<3>, &v| high.max(v));
+        if self.vertices.is_empty() { 0.0 } else { (high - low).max_abs() }
+    }
+
     /// The surface without the walls between pieces: without what of each polygon has another polygon on it that faces the other way.
     /// Of pieces that fill a body without overlapping that leaves the body's surface. Parts of one face are joined, also those of
     /// several pieces, to convex polygons; each has the smallest of the sources that it could have.
@@ -160,7 +167,7 @@ impl Surface {
     #[must_use]
     pub fn without_walls(&self) -> Self {
         let size = self.vertices.iter().map(|v| v.max_abs()).fold(0.0, f64::max);
-        let mut places = Places::new(size, self.vertices.len(), TOLERANCE * size);
+        let mut places = Places::new(self.extent(), self.vertices.len(), TOLERANCE * size);
         let numbers: Vec<u32> = self.vertices.iter().map(|&v| places.number(v)).collect();
         let shared = |corners: &[u32]| corners.iter().map(|&c| numbers[c as usize]).collect();
         let faces = self.polygons().filter_map(|(c, source)| Face::new(shared(c), source, &places, size));
@@ -178,6 +185,8 @@ impl Surface {
         for (plane, sides) in planes.iter().zip(&lines) {
             fill(sides, plane, &faces, &places, &mut facets);
         }
+        // Files have groups of faces with one source.
+        facets.sort_by_key(|facet| facet.source);
         let all: Vec<Vector<3>> = (0..places.count() as u32).map(|corner| places.at(corner)).collect();
         let mut open = Self { vertices: told_apart(&mut facets, &all), ..Self::default() };
         for facet in facets {
