@@ -138,7 +138,7 @@ fn count_planes<const N: usize>(all: &[Wall<N>], walls: &[usize], tolerance: f64
 }
 
 /// A simplex of the surface.
-struct Wall<const N: usize> {
+pub(crate) struct Wall<const N: usize> {
     corners: [Vector<N>; N],
     plane: Hyperplane<N>,
     /// Through each side of the simplex along the normal; the simplex is below all of them.
@@ -147,7 +147,7 @@ struct Wall<const N: usize> {
 
 impl<const N: usize> Wall<N> {
     /// `None` if it has no area.
-    fn new(corners: [Vector<N>; N]) -> Option<Self> {
+    pub(crate) fn new(corners: [Vector<N>; N]) -> Option<Self> {
         let plane = Hyperplane::through(&corners)?;
         let size = corners.iter().map(|c| c.distance(corners[0])).fold(0.0, f64::max);
         let mut sides = Vec::with_capacity(N);
@@ -159,6 +159,11 @@ impl<const N: usize> Wall<N> {
             sides.push(if side.distance(corners[opposite]) > 0.0 { side.flipped() } else { side });
         }
         Some(Self { corners, plane, sides })
+    }
+
+    /// Whether a point is on the wall or closer to it than `margin`; near sharp corners it may be a little farther.
+    pub(crate) fn is_near(&self, point: Vector<N>, margin: f64) -> bool {
+        self.plane.distance(point).abs() <= margin && self.sides.iter().all(|side| side.distance(point) <= margin)
     }
 
     /// Whether the wall passes through the inside of a cell.
@@ -251,6 +256,31 @@ pub(crate) fn clip<const N: usize>(cell: &Polytope<N>, plane: &Hyperplane<N>, to
     if heights.iter().any(|&h| h < -tolerance) { Polytope::from_points(&kept).ok() } else { None }
 }
 
+/// How a ray goes past a simplex.
+pub(crate) enum Crossing {
+    Away,
+    /// With the sign of the simplex as seen along the ray.
+    Through(i32),
+    /// So close to the edge that another ray has to tell.
+    Edge,
+}
+
+impl Crossing {
+    pub(crate) fn of<const N: usize>(corners: &[Vector<N>; N], point: Vector<N>, direction: Vector<N>) -> Self {
+        let m = Matrix::from_columns(corners.map(|c| c - point));
+        // p + t·direction = Σ w_i c_i with Σ w_i = 1: the weights divided by t.
+        let Some(weights) = m.solve(direction) else { return Self::Away };
+        let least = weights.iter().fold(f64::INFINITY, f64::min);
+        if least.abs() <= 1e-9 * weights.max_abs() {
+            Self::Edge
+        } else if least > 0.0 {
+            Self::Through(if m.determinant() > 0.0 { 1 } else { -1 })
+        } else {
+            Self::Away
+        }
+    }
+}
+
 /// How often the surface winds around a point that is not on it: signed crossings of a ray.
 pub(crate) fn winding_number<const N: usize>(pieces: &[[Vector<N>; N]], point: Vector<N>) -> Result<i32> {
     // Directions that no mesh is likely to be aligned with; where a ray meets an edge, the next one is taken.
@@ -261,16 +291,13 @@ pub(crate) fn winding_number<const N: usize>(pieces: &[[Vector<N>; N]], point: V
         });
         let mut winding = Some(0);
         for corners in pieces {
-            let m = Matrix::from_columns(corners.map(|c| c - point));
-            // p + t·direction = Σ w_i c_i with Σ w_i = 1: the weights divided by t.
-            let Some(weights) = m.solve(direction) else { continue };
-            let least = weights.iter().fold(f64::INFINITY, f64::min);
-            if least.abs() <= 1e-9 * weights.max_abs() {
-                winding = None;
-                break;
-            }
-            if least > 0.0 {
-                winding = winding.map(|count| count + if m.determinant() > 0.0 { 1 } else { -1 });
+            match Crossing::of(corners, point, direction) {
+                Crossing::Away => {}
+                Crossing::Through(sign) => winding = winding.map(|count| count + sign),
+                Crossing::Edge => {
+                    winding = None;
+                    break;
+                }
             }
         }
         if let Some(winding) = winding {

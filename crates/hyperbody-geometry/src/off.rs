@@ -11,6 +11,9 @@
 //! ```
 
 mod boundary;
+mod flatness;
+mod nesting;
+mod precision;
 mod read;
 
 use std::fmt;
@@ -24,13 +27,22 @@ use crate::{FaceLattice, GeometryError, Polytope, Result, hull};
 pub use read::parse;
 
 /// What an OFF file holds, in a dimension known only when it has been read. Shown as text, it is the file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct OffFile {
     dimension: usize,
     /// Coordinates, `dimension` of them for each vertex.
     vertices: Vec<f64>,
     /// From rank 2 on: 2-faces as vertices in order around the face, then each rank as elements of the one below.
     elements: Vec<Vec<Vec<u32>>>,
+    /// The line in the text that each element begins on, to be named in messages; empty if there was no text.
+    lines: Vec<Vec<u32>>,
+}
+
+/// Files are equal if they hold the same, on whatever lines.
+impl PartialEq for OffFile {
+    fn eq(&self, other: &Self) -> bool {
+        self.dimension == other.dimension && self.vertices == other.vertices && self.elements == other.elements
+    }
 }
 
 impl OffFile {
@@ -111,7 +123,7 @@ impl OffFile {
 
     /// A file of coordinates, `dimension` of them for each vertex, and of the elements from rank 2 on, which have to fit.
     pub(crate) const fn from_elements(dimension: usize, vertices: Vec<f64>, elements: Vec<Vec<Vec<u32>>>) -> Self {
-        Self { dimension, vertices, elements }
+        Self { dimension, vertices, elements, lines: Vec::new() }
     }
 
     /// The file of a polytope, with all its faces.
@@ -133,7 +145,7 @@ impl OffFile {
             elements.push(lattice.faces(rank).iter().map(|face| face.boundary.clone()).collect());
         }
         let vertices = polytope.vertices().iter().flat_map(|v| v.0).collect();
-        Self { dimension: N, vertices, elements }
+        Self { dimension: N, vertices, elements, lines: Vec::new() }
     }
 
     /// Number of different edges of the 2-faces.

@@ -44,6 +44,9 @@ pub const SECTION_TOLERANCE: f64 = 1e-12;
 /// Most cuts when a solid is cut into convex cells: every cell is a piece that collides on its own.
 pub const MAX_CELLS: usize = 4096;
 
+/// Most work for telling which pieces of a surface lie within others, in looks at a box: some seconds.
+pub(crate) const MAX_NESTING_WORK: usize = 1_000_000_000;
+
 /// Tolerances of hulls (in parts of half the extent) by which facets are joined that coordinates of few digits have split: from
 /// what ten digits leave to what four do.
 pub(crate) const JOINING_TOLERANCES: [f64; 5] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4];

@@ -15,9 +15,8 @@ use crate::build::shape_error;
 use crate::error::{ErrorKind, SceneError};
 use crate::read::Result;
 
-/// How far a vertex of a facet may lie inside of the convex hull, relative to the size of the polytope: files are
-/// accepted with four digits.
-const CONVEXITY_TOLERANCE: f64 = 2e-4;
+/// How much a surface may hold less than its hull, or more, and be the surface of the hull, in parts of its content.
+const SAME_CONTENT: f64 = 1e-9;
 
 /// The file's contents; `path` says where the file is named.
 pub(crate) fn read(text: &str, path: &str) -> Result<OffFile> {
@@ -30,14 +29,24 @@ pub(crate) fn read(text: &str, path: &str) -> Result<OffFile> {
 /// If the file breaks the rules of the format, is of another dimension, flat, or not convex: its hull would be another
 /// body.
 pub(crate) fn polytope<const N: usize>(text: &str, path: &str) -> Result<Polytope<N>> {
+    let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
     let file = read(text, path)?;
     within_limits(&file, path)?;
     closed(&file, path)?;
-    let polytope = file.to_polytope::<N>().map_err(|error| shape_error(path, &error))?;
+    file.check_flat::<N>().map_err(refuse)?;
+    let polytope = file.to_polytope::<N>().map_err(refuse)?;
     if let Some(facet) = facet_inside_the_hull(&file, &polytope) {
         let message = format!(
             "is not convex: facet {facet} of the file does not lie in the boundary of its hull; shapes that are not convex \
              are meshes, so use \"mesh\" in place of \"polytope\""
+        );
+        return Err(SceneError::new(ErrorKind::Unsupported, path, message));
+    }
+    if let Some((_, properties)) = surface_beside_the_hull(&file, &polytope).map_err(refuse)? {
+        let message = format!(
+            "is not convex: its surface bounds {:e} m^{N}, and its hull is another body; shapes that are not convex are meshes, so use \
+             \"mesh\" in place of \"polytope\"",
+            properties.mass
         );
         return Err(SceneError::new(ErrorKind::Unsupported, path, message));
     }
@@ -53,15 +62,56 @@ pub(crate) fn mesh<const N: usize>(text: &str, path: &str) -> Result<Option<(Vec
     let refuse = |error: hyperbody::prelude::GeometryError| shape_error(path, &error);
     let file = read(text, path)?;
     within_limits(&file, path)?;
-    let (Ok(hull), Some(points)) = (file.to_polytope::<N>(), file.vertices::<N>()) else {
-        return Ok(None);
+    // What is wrong with the vertices themselves is told where the hull is wanted.
+    let Ok(hull) = file.to_polytope::<N>() else { return Ok(None) };
+    let other = if facet_inside_the_hull(&file, &hull).is_some() {
+        Some(measured(&file).map_err(refuse)?)
+    } else if is_closed(&file) {
+        surface_beside_the_hull(&file, &hull).map_err(refuse)?
+    } else {
+        None
     };
-    if facet_inside_the_hull(&file, &hull).is_none() {
+    Ok(other.map(|(_, properties)| (counts::<N>(&file), properties)))
+}
+
+/// Simplices of a closed surface, and the mass properties at unit density of what it bounds.
+type Measured<const N: usize> = (Vec<[u32; N]>, MassProperties<N>);
+
+/// The surface that a file lists, as simplices.
+fn measured<const N: usize>(file: &OffFile) -> hyperbody::geometry::Result<Measured<N>> {
+    let surface = file.boundary::<N>()?;
+    let properties = MassProperties::of_closed_boundary(&file.vertices::<N>().unwrap_or_default(), &surface)?;
+    Ok((surface, properties))
+}
+
+/// The surface in a file all of whose facets lie in those of the hull, if it bounds another body all the same: one that covers the
+/// hull twice, or one of many shallow dents. `None` if it is the surface of the hull, or the file lists none.
+fn surface_beside_the_hull<const N: usize>(
+    file: &OffFile,
+    hull: &Polytope<N>,
+) -> hyperbody::geometry::Result<Option<Measured<N>>> {
+    if file.elements(N.max(3) - 1).is_empty() {
         return Ok(None);
     }
-    let surface = file.boundary::<N>().map_err(refuse)?;
-    let properties = MassProperties::of_closed_boundary(&points, &surface).map_err(refuse)?;
-    Ok(Some((counts::<N>(&file), properties)))
+    let measured = measured::<N>(file)?;
+    let content = MassProperties::of_polytope(hull).mass;
+    // Facets of the hull that are off by rounding enclose that much more or less.
+    let middle = hull.vertex_mean();
+    let heights = hull.facets().iter().map(|facet| facet.offset - facet.normal.dot(middle));
+    let inradius = heights.fold(f64::INFINITY, f64::min);
+    let rounding = file.convexity_tolerance().max(coarseness(hull)) * N as f64 / inradius;
+    let same = (measured.1.mass / content - 1.0).abs() <= SAME_CONTENT.max(rounding);
+    Ok((!same).then_some(measured))
+}
+
+/// How far corners of the hull lie off the facets that hold them: where coordinates have few digits, facets are made of corners that are
+/// not in one plane.
+fn coarseness<const N: usize>(hull: &Polytope<N>) -> f64 {
+    let off = |facet: &hyperbody::geometry::polytope::Facet<N>| {
+        let corners = facet.vertices.iter().map(|&v| hull.vertices()[v as usize]);
+        corners.map(|corner| (facet.normal.dot(corner) - facet.offset).abs()).fold(0.0, f64::max)
+    };
+    hull.facets().iter().map(off).fold(0.0, f64::max)
 }
 
 /// The surface of a star polytope of `N` dimensions.
@@ -117,12 +167,16 @@ pub(crate) fn cells<const N: usize>(text: &str, path: &str) -> Result<Vec<Polyto
     let file = read(text, path)?;
     within_limits(&file, path)?;
     closed(&file, path)?;
+    file.check_flat::<N>().map_err(refuse)?;
     let hull = file.to_polytope::<N>().map_err(refuse)?;
-    if facet_inside_the_hull(&file, &hull).is_none() {
-        return Ok(vec![hull]);
-    }
     let points = file.vertices::<N>().unwrap_or_default();
-    convex_cells(&points, &file.boundary::<N>().map_err(refuse)?).map_err(refuse)
+    if facet_inside_the_hull(&file, &hull).is_some() {
+        return convex_cells(&points, &file.boundary::<N>().map_err(refuse)?).map_err(refuse);
+    }
+    match surface_beside_the_hull(&file, &hull).map_err(refuse)? {
+        Some((surface, _)) => convex_cells(&points, &surface).map_err(refuse),
+        None => Ok(vec![hull]),
+    }
 }
 
 /// Refuses a surface with a gap, or with facets that branch: what it bounds is not said.
@@ -156,52 +210,37 @@ fn within_limits(file: &OffFile, path: &str) -> Result<()> {
     Err(SceneError::new(ErrorKind::Shape, path, message))
 }
 
-/// The number of the first listed facet that does not lie within one facet of the hull. A closed surface without one is the
-/// surface of the hull.
+/// The number of the first listed facet that is none of the hull's and does not lie within one either, to what the digits of the
+/// coordinates leave open. A closed surface without one is the surface of the hull.
 ///
 /// Facets of a convex surface are sought around one of their vertices, so that 100,000 of them take no time to speak of.
 fn facet_inside_the_hull<const N: usize>(file: &OffFile, polytope: &Polytope<N>) -> Option<usize> {
     let vertices = file.vertices::<N>()?;
-    // By its size, wherever it stands.
-    let middle = polytope.vertex_mean();
-    let size = polytope.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max);
-    let tolerance = CONVEXITY_TOLERANCE * size;
+    let tolerance = file.convexity_tolerance();
     // Vertices of hulls are points that they were made of, to the bit.
     let bits = |point: Vector<N>| point.0.map(|c| (c + 0.0).to_bits());
-    let corners: BTreeMap<[u64; N], usize> =
-        polytope.vertices().iter().enumerate().map(|(number, &corner)| (bits(corner), number)).collect();
+    let corners: BTreeMap<[u64; N], u32> =
+        polytope.vertices().iter().zip(0..).map(|(&corner, number)| (bits(corner), number)).collect();
+    // The hull may have been made with a tolerance that its own facets exceed, as far as that gives the facets of the file.
+    let is_of_hull = |facet: &[u32], number: usize| {
+        let own = facet.iter().map(|&vertex| corners.get(&bits(*vertices.get(vertex as usize)?)).copied());
+        let Some(mut own) = own.collect::<Option<Vec<u32>>>() else { return false };
+        own.sort_unstable();
+        own == polytope.facets()[number].vertices
+    };
     let holds = |facet: &[u32], number: usize| {
         let hull = &polytope.facets()[number];
         facet.iter().all(|&vertex| {
             vertices.get(vertex as usize).is_some_and(|&v| (hull.normal.dot(v) - hull.offset).abs() <= tolerance)
         })
     };
-    facets_as_vertices(file).iter().position(|facet| {
+    file.facet_vertices().iter().position(|facet| {
         let mut own = facet.iter().filter_map(|&vertex| corners.get(&bits(*vertices.get(vertex as usize)?)));
-        let around = own.next().map_or(&[][..], |&corner| polytope.facets_of_vertex(corner));
-        let beside = around.iter().any(|&number| holds(facet, number as usize));
-        !beside && !(0..polytope.facets().len()).any(|number| holds(facet, number))
+        let around = own.next().map_or(&[][..], |&corner| polytope.facets_of_vertex(corner as usize));
+        let beside = around.iter().map(|&number| number as usize);
+        !beside.clone().any(|number| holds(facet, number) || is_of_hull(facet, number))
+            && !(0..polytope.facets().len()).any(|number| holds(facet, number))
     })
-}
-
-/// The vertices of each listed facet; none if the file does not go up to the facets. In the plane the edges are the facets.
-fn facets_as_vertices(file: &OffFile) -> Vec<Vec<u32>> {
-    if file.dimension() == 2 {
-        let ends = |cycle: &Vec<u32>, k: usize| vec![cycle[k], cycle[(k + 1) % cycle.len()]];
-        return file.elements(2).iter().flat_map(|cycle| (0..cycle.len()).map(move |k| ends(cycle, k))).collect();
-    }
-    let mut elements: Vec<Vec<u32>> = file.elements(2).to_vec();
-    for rank in 3..file.dimension() {
-        let gather = |parts: &Vec<u32>| {
-            let mut vertices: Vec<u32> =
-                parts.iter().filter_map(|&part| elements.get(part as usize)).flatten().copied().collect();
-            vertices.sort_unstable();
-            vertices.dedup();
-            vertices
-        };
-        elements = file.elements(rank).iter().map(gather).collect();
-    }
-    elements
 }
 
 /// Whether every ridge of the file bounds exactly two facets. Files that list no facets mean a hull, which is closed.

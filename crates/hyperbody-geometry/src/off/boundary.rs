@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use hyperbody_math::{Matrix, Vector};
 
 use super::OffFile;
-use crate::decompose::winding_number;
+use super::nesting::{Piece, hollows};
 use crate::error::GeometryErrorKind::{BadCount, BadMesh};
 use crate::{GeometryError, Result};
 
@@ -24,18 +24,21 @@ struct Element {
 
 impl OffFile {
     /// The surface that the file lists, as simplices of `N` vertices with neighbours oriented alike; each connected piece of it
-    /// is turned so that its volume is positive, or negative if it lies within an odd number of others: it bounds a hollow then.
-    /// Pieces that cross each other are not within each other. Its volume and moments are those of
+    /// is turned so that its volume is positive, or negative if it lies within an odd number of others: it bounds a hollow then,
+    /// which may touch the surface around it. In the plane each polygon is such a piece. Pieces that cross each other are not
+    /// within each other. Its volume and moments are those of
     /// [`MassProperties::of_closed_boundary`](crate::MassProperties::of_closed_boundary), where regions around which the
     /// surface winds twice count twice.
     ///
     /// # Errors
     /// `BadCount` if the file is not of dimension `N` or lists no facets; `BadMesh` if the surface is open, more than two facets
-    /// meet in a ridge, or it cannot be oriented.
+    /// meet in a ridge, it cannot be oriented, a face is not flat ([`OffFile::check_flat`]), or pieces of it lie upon each other;
+    /// `BadCount` too if there are so many pieces within the boxes of others that it would take minutes to sort them.
     pub fn boundary<const N: usize>(&self) -> Result<Vec<[u32; N]>> {
         let Some(points) = self.vertices::<N>() else {
             return Err(GeometryError::new(BadCount, format!("the file is of dimension {}, not {N}", self.dimension)));
         };
+        self.check_flat::<N>()?;
         let mut edges = Edges::default();
         let mut elements: Vec<Element> = self.elements(2).iter().map(|cycle| polygon(cycle, &mut edges)).collect();
         for rank in 3..N {
@@ -48,40 +51,57 @@ impl OffFile {
             let made: Result<Vec<Element>> = made.collect();
             elements = made?;
         }
-        if N == 2 {
-            // In the plane the edges themselves are the surface.
-            return Ok(elements
-                .iter()
-                .flat_map(|face| face.boundary.iter())
-                .filter_map(|&(e, s)| edges.oriented(e, s))
-                .collect());
-        }
         if elements.is_empty() {
             return Err(GeometryError::new(BadCount, format!("the file lists no facets of dimension {}", N - 1)));
         }
-        let all: Vec<u32> = (0..elements.len() as u32).collect();
-        let signs = orient(&all, &elements).map_err(|what| self.bad_surface(what))?;
-        let mut pieces: Vec<(Vec<[u32; N]>, f64)> = Vec::new();
+        let pieces = if N == 2 { polygons(&elements, &edges) } else { self.connected(&elements)? };
         let origin = points.iter().fold(Vector::ZERO, |sum, &p| sum + p) / points.len().max(1) as f64;
-        for (element, (sign, piece)) in elements.iter().zip(signs) {
-            pieces.resize_with(pieces.len().max(piece + 1), Default::default);
+        let pieces: Vec<Piece<N>> = pieces.into_iter().map(|piece| piece.outward(&points, origin)).collect();
+        let margin = self.convexity_tolerance();
+        let hollow = hollows(&pieces, &points, margin)?;
+        let turned = |(piece, hollow): (Piece<N>, bool)| if hollow { piece.turned_over() } else { piece };
+        Ok(pieces.into_iter().zip(hollow).flat_map(|pair| turned(pair).simplices).collect())
+    }
+
+    /// The connected pieces of the surface, each with its simplices oriented alike.
+    fn connected<const N: usize>(&self, facets: &[Element]) -> Result<Vec<Piece<N>>> {
+        let all: Vec<u32> = (0..facets.len() as u32).collect();
+        let signs = orient(&all, facets).map_err(|what| self.bad_surface(what))?;
+        let mut pieces: Vec<Piece<N>> = Vec::new();
+        for (facet, (element, (sign, piece))) in facets.iter().zip(signs).enumerate() {
+            // Pieces are numbered as they are met.
+            if piece == pieces.len() {
+                pieces.push(Piece { simplices: Vec::new(), facet });
+            }
             for (corners, own) in &element.filling {
                 let Ok(mut simplex) = <[u32; N]>::try_from(&corners[..]) else { continue };
                 if own * sign < 0 {
                     simplex.swap(0, 1);
                 }
-                let volume = Matrix::from_columns(simplex.map(|v| points[v as usize] - origin)).determinant();
-                pieces[piece].0.push(simplex);
-                pieces[piece].1 += volume;
+                pieces[piece].simplices.push(simplex);
             }
         }
-        let pieces: Vec<Vec<[u32; N]>> = pieces
-            .into_iter()
-            .map(|(simplices, volume)| if volume < 0.0 { turned_over(simplices) } else { simplices })
-            .collect();
-        let hollow: Vec<bool> = (0..pieces.len()).map(|piece| bounds_a_hollow(piece, &pieces, &points)).collect();
-        let turned = |(simplices, hollow)| if hollow { turned_over(simplices) } else { simplices };
-        Ok(pieces.into_iter().zip(hollow).flat_map(turned).collect())
+        Ok(pieces)
+    }
+}
+
+/// In the plane the edges themselves are the surface, and each polygon is a piece: polygons that share an edge lie side by side.
+fn polygons<const N: usize>(elements: &[Element], edges: &Edges) -> Vec<Piece<N>> {
+    let sides = |polygon: &Element| polygon.boundary.iter().filter_map(|&(e, s)| edges.oriented(e, s)).collect();
+    elements.iter().enumerate().map(|(facet, polygon)| Piece { simplices: sides(polygon), facet }).collect()
+}
+
+impl<const N: usize> Piece<N> {
+    /// Turned so that its volume is not negative.
+    fn outward(self, points: &[Vector<N>], origin: Vector<N>) -> Self {
+        let volume =
+            |simplex: &[u32; N]| Matrix::from_columns(simplex.map(|v| points[v as usize] - origin)).determinant();
+        if self.simplices.iter().map(volume).sum::<f64>() < 0.0 { self.turned_over() } else { self }
+    }
+
+    fn turned_over(mut self) -> Self {
+        self.simplices.iter_mut().for_each(|simplex| simplex.swap(0, 1));
+        self
     }
 }
 
@@ -112,36 +132,6 @@ impl OffFile {
 
 /// What is wrong if a ridge bounds one facet, or more than two.
 const OPEN: &str = "is open or branches: some ridge of it (in 3D an edge) does not bound exactly two facets";
-
-fn turned_over<const N: usize>(mut simplices: Vec<[u32; N]>) -> Vec<[u32; N]> {
-    simplices.iter_mut().for_each(|simplex| simplex.swap(0, 1));
-    simplices
-}
-
-/// Whether a piece of the surface lies within an odd number of the others.
-fn bounds_a_hollow<const N: usize>(piece: usize, pieces: &[Vec<[u32; N]>], points: &[Vector<N>]) -> bool {
-    let mut own: Vec<u32> = pieces[piece].iter().flatten().copied().collect();
-    own.sort_unstable();
-    own.dedup();
-    let range = |piece: &[[u32; N]]| {
-        piece
-            .iter()
-            .flatten()
-            .fold((Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)), |(low, high), &v| {
-                (low.min(points[v as usize]), high.max(points[v as usize]))
-            })
-    };
-    let (low, high) = range(&pieces[piece]);
-    let around = |other: &&Vec<[u32; N]>| {
-        let (outer_low, outer_high) = range(other);
-        if !(0..N).all(|axis| outer_low[axis] < low[axis] && high[axis] < outer_high[axis]) {
-            return false;
-        }
-        let corners: Vec<[Vector<N>; N]> = other.iter().map(|simplex| simplex.map(|v| points[v as usize])).collect();
-        own.iter().all(|&v| winding_number(&corners, points[v as usize]).is_ok_and(|winding| winding != 0))
-    };
-    pieces.iter().filter(around).count() % 2 == 1
-}
 
 fn bad(rank: usize, index: usize, what: &str) -> GeometryError {
     GeometryError::new(BadMesh, format!("face {index} of rank {rank} {what}"))

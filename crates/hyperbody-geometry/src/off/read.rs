@@ -185,18 +185,21 @@ impl<'a> Reader<'a> {
         // The number of edges is neither needed nor reliable. The others are those of ranks 2, 3, …
         let edges = if convention.edges_second { 1 } else { 2 };
         let mut elements: Vec<Vec<Vec<u32>>> = Vec::new();
+        let mut lines: Vec<Vec<u32>> = Vec::new();
         for (position, (count, token)) in counts.into_iter().enumerate().skip(1) {
             if position != edges {
                 let below = elements.last().map_or(vertex_count, Vec::len);
                 self.check_room(count, 1, "faces", &token)?;
-                elements.push(self.rank(elements.len() + 2, count, below, convention.colours)?);
+                let (rank, begin) = self.rank(elements.len() + 2, count, below, convention.colours)?;
+                elements.push(rank);
+                lines.push(begin);
             }
         }
         while elements.last().is_some_and(Vec::is_empty) {
             elements.pop();
         }
         match self.tokens.get(self.next) {
-            None => Ok(OffFile { dimension, vertices, elements }),
+            None => Ok(OffFile { dimension, vertices, elements, lines }),
             // Everything that the counts announce was there: no other way of reading gets farther.
             Some(token) => Err(Fault {
                 line: token.line,
@@ -206,16 +209,16 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The elements of one rank, each a list of elements of the rank below (for rank 2: of vertices).
+    /// The elements of one rank, each a list of elements of the rank below (for rank 2: of vertices), and the lines they begin on.
     fn rank(
         &mut self,
         rank: usize,
         count: usize,
         below: usize,
         colours: bool,
-    ) -> std::result::Result<Vec<Vec<u32>>, Fault> {
+    ) -> std::result::Result<(Vec<Vec<u32>>, Vec<u32>), Fault> {
         let part = if rank == 2 { "vertices" } else { "faces of the rank below" };
-        let mut elements = Vec::with_capacity(count);
+        let (mut elements, mut lines) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for index in 0..count {
             let size = self.integer("the size of a face")?;
             let token = self.tokens[self.next - 1];
@@ -238,11 +241,12 @@ impl<'a> Reader<'a> {
                 element.push(part_index as u32);
             }
             elements.push(element);
+            lines.push(token.line as u32);
             if colours {
                 self.skip_line();
             }
         }
-        Ok(elements)
+        Ok((elements, lines))
     }
 
     /// Passes over the numbers that are left on the line of the last token.
