@@ -13,7 +13,7 @@ use hyperbody_math::{Matrix, Vector};
 use crate::error::GeometryErrorKind::{BadCount, BadMesh};
 use crate::hull::plane::Hyperplane;
 use crate::mass::MassProperties;
-use crate::tolerances::{MAX_CELLS, MAX_JOINED_CELLS};
+use crate::tolerances::{MAX_CELLS, MAX_CUTTING_WORK, MAX_JOINED_CELLS};
 use crate::{GeometryError, Polytope, Result};
 
 /// Lengths below this, in parts of the size of the solid, are none.
@@ -25,6 +25,9 @@ const CLEARLY: f64 = 1e3;
 /// Steps of the search for a point of a wall that is clearly within a cell.
 const SEARCH_STEPS: usize = 40;
 
+/// How many corners and facets of a cell are looked at in half a microsecond.
+const LOOKS: usize = 150;
+
 /// How many pieces of surface are tried for the one whose hyperplane cuts the fewest others.
 const CANDIDATES: usize = 8;
 
@@ -34,7 +37,7 @@ const CANDIDATES: usize = 8;
 ///
 /// # Errors
 /// `BadMesh` or as [`MassProperties::of_closed_boundary`] if the surface is not closed; `BadCount` if more than
-/// [`MAX_CELLS`] cells are needed; as [`Polytope::from_points`] if the solid is flat.
+/// [`MAX_CELLS`] cells are needed, or cutting them would take minutes; as [`Polytope::from_points`] if the solid is flat.
 pub fn convex_cells<const N: usize>(points: &[Vector<N>], surface: &[[u32; N]]) -> Result<Vec<Polytope<N>>> {
     let whole = MassProperties::of_closed_boundary(points, surface)?;
     let used: Vec<Vector<N>> = surface.iter().flatten().map(|&v| points[v as usize]).collect();
@@ -85,10 +88,15 @@ fn partition<const N: usize>(hull: Polytope<N>, all: &[Wall<N>], tolerance: f64)
     let mut done: Vec<(Vec<bool>, Polytope<N>)> = Vec::new();
     let mut waiting: Vec<Uncut<N>> = Vec::new();
     let mut halves = vec![(hull, (0..all.len()).collect::<Vec<usize>>(), Vec::new())];
-    let (mut cuts, mut planes_left) = (0, 0);
+    let (mut cuts, mut planes_left, mut work) = (0, 0, 0);
     loop {
         for (cell, near, sides) in halves.drain(..) {
-            let crossing: Vec<usize> = near.into_iter().filter(|&wall| all[wall].passes(&cell, tolerance)).collect();
+            work += effort(&cell);
+            let mut passing = |&wall: &usize| work <= MAX_CUTTING_WORK && all[wall].passes(&cell, tolerance, &mut work);
+            let crossing: Vec<usize> = near.into_iter().filter(&mut passing).collect();
+            if work > MAX_CUTTING_WORK {
+                return Err(too_long::<N>(cuts, (cuts + planes_left).max(1)));
+            }
             if crossing.is_empty() {
                 done.push((sides, cell));
                 continue;
@@ -118,6 +126,23 @@ fn partition<const N: usize>(hull: Polytope<N>, all: &[Wall<N>], tolerance: f64)
     }
     done.sort_by(|(a, _), (b, _)| a.cmp(b));
     Ok(done.into_iter().map(|(_, cell)| cell).collect())
+}
+
+/// What it takes to make the hull of a polytope, roughly, in half microseconds. From four dimensions on every vertex has to do with
+/// most of the facets on the way.
+fn effort<const N: usize>(polytope: &Polytope<N>) -> usize {
+    match N {
+        2 | 3 => 6 * polytope.facets().iter().map(|facet| facet.vertices.len()).sum::<usize>(),
+        _ => polytope.vertices().len() * polytope.facets().len(),
+    }
+}
+
+fn too_long<const N: usize>(cuts: usize, needed: usize) -> GeometryError {
+    let message = format!(
+        "the solid takes too long to come apart into convex cells: {cuts} cuts are made of {needed} or more, and in {N} dimensions each \
+         is that much work; use a simpler mesh, or several meshes as parts of a compound"
+    );
+    GeometryError::new(BadCount, message)
 }
 
 /// In how many hyperplanes walls lie, at least; counted until there are too many.
@@ -166,8 +191,9 @@ impl<const N: usize> Wall<N> {
         self.plane.distance(point).abs() <= margin && self.sides.iter().all(|side| side.distance(point) <= margin)
     }
 
-    /// Whether the wall passes through the inside of a cell.
-    fn passes(&self, cell: &Polytope<N>, tolerance: f64) -> bool {
+    /// Whether the wall passes through the inside of a cell; the effort of finding out is added to `work`.
+    fn passes(&self, cell: &Polytope<N>, tolerance: f64, work: &mut usize) -> bool {
+        *work += (cell.vertices().len() + cell.facets().len()) / LOOKS;
         let outside =
             |normal: Vector<N>, offset: f64| self.corners.iter().all(|c| normal.dot(*c) - offset > -tolerance);
         if !divides(&self.plane, cell, tolerance) || cell.facets().iter().any(|f| outside(f.normal, f.offset)) {
@@ -183,7 +209,10 @@ impl<const N: usize> Wall<N> {
         let mut rest = cell.clone();
         for side in &self.sides {
             match clip(&rest, side, tolerance) {
-                Some(clipped) => rest = clipped,
+                Some(clipped) => {
+                    *work += effort(&clipped);
+                    rest = clipped;
+                }
                 None => return false,
             }
         }

@@ -44,8 +44,11 @@ pub const SECTION_TOLERANCE: f64 = 1e-12;
 /// Most cuts when a solid is cut into convex cells: every cell is a piece that collides on its own.
 pub const MAX_CELLS: usize = 4096;
 
+/// Most work for cutting a solid into convex cells, in about half microseconds: ten seconds.
+pub(crate) const MAX_CUTTING_WORK: usize = 20_000_000;
+
 /// Most work for telling which pieces of a surface lie within others, in looks at a box: some seconds.
-pub(crate) const MAX_NESTING_WORK: usize = 1_000_000_000;
+pub(crate) const MAX_NESTING_WORK: usize = 500_000_000;
 
 /// Tolerances of hulls (in parts of half the extent) by which facets are joined that coordinates of few digits have split: from
 /// what ten digits leave to what four do.

@@ -57,8 +57,7 @@ impl OffFile {
         let pieces = if N == 2 { polygons(&elements, &edges) } else { self.connected(&elements)? };
         let origin = points.iter().fold(Vector::ZERO, |sum, &p| sum + p) / points.len().max(1) as f64;
         let pieces: Vec<Piece<N>> = pieces.into_iter().map(|piece| piece.outward(&points, origin)).collect();
-        let margin = self.convexity_tolerance();
-        let hollow = hollows(&pieces, &points, margin)?;
+        let hollow = hollows(&pieces, &points, [self.convexity_tolerance(), self.rounding()])?;
         let turned = |(piece, hollow): (Piece<N>, bool)| if hollow { piece.turned_over() } else { piece };
         Ok(pieces.into_iter().zip(hollow).flat_map(|pair| turned(pair).simplices).collect())
     }

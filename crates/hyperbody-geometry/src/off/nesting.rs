@@ -1,7 +1,8 @@
 //! Which pieces of a surface lie within others, and so bound hollows.
 //!
 //! A piece lies within another one if all its points do that are clearly off the other: its vertices and the middles of its
-//! simplices, so that a hollow may touch the surface around it. Whether a point does is told by the winding number, for whose
+//! simplices, so that a hollow may touch the surface around it. What is off is told by the digits of the coordinates, and if nothing
+//! is, by what rounding leaves of any number. Whether a point does is told by the winding number, for whose
 //! ray boxes along it sort out all but a few simplices. Most pairs of pieces are told apart by their boxes, in one sweep.
 
 use hyperbody_math::Vector;
@@ -10,6 +11,9 @@ use crate::decompose::{Crossing, Wall, winding_number};
 use crate::error::GeometryErrorKind::{BadCount, BadMesh};
 use crate::tolerances::MAX_NESTING_WORK;
 use crate::{GeometryError, Result};
+
+/// What a pair of pieces costs at least, in looks at a box.
+const PAIR: usize = 100;
 
 /// A connected piece of a surface.
 #[derive(Default)]
@@ -35,26 +39,29 @@ impl<const N: usize> Extent<N> {
     }
 }
 
-/// For each piece whether it lies within an odd number of the others; points closer than `margin` to a surface are on it.
+/// For each piece whether it lies within an odd number of the others. Points closer than `margins[0]` to a surface are on it, or if
+/// that is so of all points of a piece, those closer than the smaller `margins[1]`.
 ///
 /// # Errors
 /// `BadMesh` if a piece has no point that is clearly off another one around it; `BadCount` if it would take minutes to tell.
-pub(super) fn hollows<const N: usize>(pieces: &[Piece<N>], points: &[Vector<N>], margin: f64) -> Result<Vec<bool>> {
+pub(super) fn hollows<const N: usize>(
+    pieces: &[Piece<N>],
+    points: &[Vector<N>],
+    margins: [f64; 2],
+) -> Result<Vec<bool>> {
     let mut hollow = vec![false; pieces.len()];
     let mut work = 0;
-    for (outer, inner) in candidates(pieces, points, margin, &mut work)? {
-        let around = Around::new(&pieces[outer].simplices, points, margin);
+    for (outer, inner) in candidates(pieces, points, margins[0], &mut work)? {
+        let around = Around::new(&pieces[outer].simplices, points, margins[0]);
         for piece in inner {
             let places = places(&pieces[piece].simplices, points);
-            spend(&mut work, places.len() * pieces[outer].simplices.len(), pieces.len())?;
-            let mut within = None;
-            for side in places.into_iter().filter_map(|place| around.holds(place)) {
-                within = Some(side);
+            let mut all_within = |margin: f64| {
+                let mut sides = places.iter().filter_map(|&place| around.holds(place, margin, &mut work));
                 // One that is outside is enough: the surfaces cross.
-                if !side {
-                    break;
-                }
-            }
+                sides.next().map(|first| first && sides.all(|side| side))
+            };
+            let within = margins.into_iter().find_map(&mut all_within);
+            spend(&mut work, 0, pieces.len())?;
             let Some(within) = within else { return Err(doubtful(pieces[piece].facet, pieces[outer].facet)) };
             hollow[piece] ^= within;
         }
@@ -86,6 +93,7 @@ fn candidates<const N: usize>(
         spend(work, begun.len(), pieces.len())?;
         for &other in begun.iter().filter(|&&other| other != piece && extents[other].holds(extent, margin)) {
             inner[other].push(piece);
+            spend(work, PAIR, pieces.len())?;
         }
     }
     Ok(inner.into_iter().enumerate().filter(|(_, inner)| !inner.is_empty()).collect())
@@ -102,51 +110,67 @@ fn places<const N: usize>(simplices: &[[u32; N]], points: &[Vector<N>]) -> Vec<V
 
 /// A piece that may lie around others.
 struct Around<const N: usize> {
-    simplices: Vec<[Vector<N>; N]>,
-    /// Of simplices that have an area.
-    walls: Vec<Wall<N>>,
-    /// The direction of rays, and directions orthogonal to it and to each other.
+    /// The direction of rays is the last one, and the others are orthogonal to it and to each other.
     frame: [Vector<N>; N],
-    /// Boxes of the simplices in this frame, a little larger.
-    extents: Vec<Extent<N>>,
-    margin: f64,
+    sides: Vec<Side<N>>,
+    /// The largest extent of a simplex along the first axis of the frame, by which the simplices are sorted.
+    widest: f64,
+    corners: Vec<[Vector<N>; N]>,
+}
+
+struct Side<const N: usize> {
+    /// The box of the simplex in the frame, a little larger.
+    extent: Extent<N>,
+    corners: [Vector<N>; N],
+    /// `None` if it has no area.
+    wall: Option<Wall<N>>,
 }
 
 impl<const N: usize> Around<N> {
     fn new(simplices: &[[u32; N]], points: &[Vector<N>], margin: f64) -> Self {
-        let simplices: Vec<[Vector<N>; N]> =
-            simplices.iter().map(|simplex| simplex.map(|v| points[v as usize])).collect();
         // No mesh is likely to be aligned with it.
         let direction = Vector::<N>::from_fn(|axis| (axis as f64 * 0.754_877_666_246_693 + 0.618).fract() - 0.5);
         let mut frame = direction.normalize_or_zero().orthonormal_complement();
         frame[N - 1] = direction.normalize_or_zero();
         let turned = |corner: Vector<N>| Vector::from_fn(|axis| frame[axis].dot(corner));
-        let extents = simplices.iter().map(|corners| {
+        let side = |simplex: &[u32; N]| {
+            let corners = simplex.map(|v| points[v as usize]);
             let tight = Extent::of(corners.iter().map(|&corner| turned(corner)));
-            Extent { low: tight.low - Vector::splat(margin), high: tight.high + Vector::splat(margin) }
-        });
-        let extents = extents.collect();
-        let walls = simplices.iter().filter_map(|corners| Wall::new(*corners)).collect();
-        Self { simplices, walls, frame, extents, margin }
+            let extent = Extent { low: tight.low - Vector::splat(margin), high: tight.high + Vector::splat(margin) };
+            Side { extent, corners, wall: Wall::new(corners) }
+        };
+        let mut sides: Vec<Side<N>> = simplices.iter().map(side).collect();
+        sides.sort_by(|a, b| a.extent.low[0].total_cmp(&b.extent.low[0]));
+        let widest = sides.iter().map(|side| side.extent.high[0] - side.extent.low[0]).fold(0.0, f64::max);
+        let corners = sides.iter().map(|side| side.corners).collect();
+        Self { frame, sides, widest, corners }
     }
 
-    /// Whether the surface winds around a point; `None` if the point is on it, or nearly.
-    fn holds(&self, point: Vector<N>) -> Option<bool> {
-        if self.walls.iter().any(|wall| wall.is_near(point, self.margin)) {
-            return None;
-        }
+    /// Whether the surface winds around a point; `None` if the point is on it, or closer than `margin`. Adds the simplices that were
+    /// looked at to `work`.
+    fn holds(&self, point: Vector<N>, margin: f64, work: &mut usize) -> Option<bool> {
         let place = Vector::<N>::from_fn(|axis| self.frame[axis].dot(point));
+        let begin = self.sides.partition_point(|side| side.extent.low[0] < place[0] - self.widest);
+        let end = self.sides.partition_point(|side| side.extent.low[0] <= place[0]);
+        *work = work.saturating_add(end - begin);
         let meets = |extent: &Extent<N>| {
             (0..N - 1).all(|axis| extent.low[axis] <= place[axis] && place[axis] <= extent.high[axis])
                 && place[N - 1] <= extent.high[N - 1]
         };
-        let mut winding = 0;
-        for (corners, _) in self.simplices.iter().zip(&self.extents).filter(|(_, extent)| meets(extent)) {
-            match Crossing::of(corners, point, self.frame[N - 1]) {
+        let (mut winding, mut at_edge) = (0, false);
+        for side in self.sides[begin..end].iter().filter(|side| meets(&side.extent)) {
+            if side.wall.as_ref().is_some_and(|wall| wall.is_near(point, margin)) {
+                return None;
+            }
+            match Crossing::of(&side.corners, point, self.frame[N - 1]) {
                 Crossing::Away => {}
                 Crossing::Through(sign) => winding += sign,
-                Crossing::Edge => return winding_number(&self.simplices, point).ok().map(|winding| winding != 0),
+                Crossing::Edge => at_edge = true,
             }
+        }
+        if at_edge {
+            *work = work.saturating_add(self.sides.len());
+            winding = winding_number(&self.corners, point).ok()?;
         }
         Some(winding != 0)
     }
@@ -164,9 +188,10 @@ fn spend(work: &mut usize, more: usize, pieces: usize) -> Result<()> {
     Err(GeometryError::new(BadCount, message))
 }
 
-fn doubtful(inner: usize, outer: usize) -> GeometryError {
+fn doubtful(one: usize, other: usize) -> GeometryError {
+    let (first, second) = (one.min(other), one.max(other));
     let message = format!(
-        "the pieces of the surface with faces {inner} and {outer} lie upon each other, so that it is not clear whether one is a hollow \
+        "the pieces of the surface with faces {first} and {second} lie upon each other, so that it is not clear whether one is a hollow \
          in the other: remove one of them, or move them apart"
     );
     GeometryError::new(BadMesh, message)

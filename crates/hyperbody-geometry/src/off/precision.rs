@@ -2,7 +2,8 @@
 //!
 //! Programs round what they write: to four decimals, to six digits, to single precision. A polytope that was convex and flat is so
 //! after that to the unit of the last place only. But short numbers need not be rounded ones: 0.01 beside 50 is most likely meant.
-//! So a file counts as rounded if at least half of its vertices use the last place, and that place is small against the body.
+//! So a file counts as rounded if at least half of its vertices use the last place, and that place is small against the body and behind
+//! the point: whole numbers are taken for what they are, a grid of millimetres or so.
 
 use super::OffFile;
 
@@ -23,11 +24,14 @@ impl OffFile {
     /// plane is known from.
     #[must_use]
     pub fn convexity_tolerance(&self) -> f64 {
-        let (size, farthest) = self.half_extent();
         let root = (self.dimension as f64).sqrt();
-        let written = self.last_place().map_or(0.0, |unit| unit * root);
-        // Far from the origin less is left of the digits of a double.
-        written.max(ROUNDING * size).max(8.0 * f64::EPSILON * farthest)
+        self.last_place().map_or(0.0, |unit| unit * root).max(self.rounding())
+    }
+
+    /// What arithmetic leaves of a length, in metres. Far from the origin that is more.
+    pub(super) fn rounding(&self) -> f64 {
+        let (size, farthest) = self.half_extent();
+        (ROUNDING * size).max(8.0 * f64::EPSILON * farthest)
     }
 
     /// The unit of the last place that the coordinates were rounded to, or `None` if they do not look rounded.
@@ -46,7 +50,7 @@ impl OffFile {
         } else {
             unit
         };
-        (unit <= COARSEST_PLACE * size).then_some(unit)
+        (used_by_half < 0 && unit <= COARSEST_PLACE * size).then_some(unit)
     }
 
     /// Half the extent of the vertices, the largest over the axes, and the largest coordinate.
@@ -91,6 +95,7 @@ mod tests {
         // Whole numbers, and a single vertex with many digits, round nothing.
         assert_eq!(last_place(&[1.0, 1.0, -1.0, 1.0, 0.0, -1.0]), None);
         assert_eq!(last_place(&[1.0, 1.0, -1.0, 1.0, 0.9997, -1.0]), None);
+        assert_eq!(last_place(&[2471.0, 3618.0, -1927.0, 2002.0, 1.0, -3301.0]), None);
         assert_eq!(last_place(&[0.0, 0.0]), None);
     }
 }

@@ -7,6 +7,7 @@ mod hull_noise;
 mod mass;
 mod meshes;
 mod off;
+mod pieces;
 mod products;
 mod products_of_pieces;
 mod projections;

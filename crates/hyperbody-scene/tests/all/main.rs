@@ -5,6 +5,7 @@ mod gallery_sentences;
 mod hostile_recordings;
 mod hostile_text;
 mod mesh_bodies;
+mod mesh_convexity;
 mod recording;
 mod round_trip;
 mod shapes_rest;
