@@ -297,3 +297,42 @@ fn large_meshes_are_cells_or_are_refused_soon() {
         start.elapsed()
     );
 }
+
+/// A cross-polytope of which every facet is divided by a point that stands out or in: star-shaped, and rough.
+fn rough_cross_polytope<const N: usize>() -> (Vec<Vector<N>>, Vec<[u32; N]>) {
+    let mut random = Random(5);
+    let mut points: Vec<Vector<N>> =
+        (0..2 * N).map(|k| Vector::unit(k / 2) * if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
+    let mut surface = Vec::new();
+    for signs in 0..1_usize << N {
+        let facet: [u32; N] = std::array::from_fn(|axis| (2 * axis + (signs >> axis & 1)) as u32);
+        let middle = facet.iter().fold(Vector::ZERO, |sum, &v| sum + points[v as usize]).normalize_or_zero();
+        points.push(middle * (0.7 + 0.006 * (random.bits() % 100) as f64));
+        for replaced in 0..N {
+            let mut simplex = facet;
+            simplex[replaced] = points.len() as u32 - 1;
+            if Matrix::from_columns(simplex.map(|v| points[v as usize])).determinant() < 0.0 {
+                simplex.swap(0, 1);
+            }
+            surface.push(simplex);
+        }
+    }
+    (points, surface)
+}
+
+/// A cut of 6D takes thousands of times as long as one of 3D, so the number of cuts is no bound.
+#[test]
+fn rough_meshes_of_many_dimensions_are_cut_or_refused_soon() {
+    let (points, surface) = rough_cross_polytope::<4>();
+    let cells = convex_cells(&points, &surface).unwrap();
+    let sum: f64 = cells.iter().map(|cell| MassProperties::of_polytope(cell).mass).sum();
+    let whole = MassProperties::of_closed_boundary(&points, &surface).unwrap().mass;
+    assert!((sum / whole - 1.0).abs() < 1e-9, "{sum} for {whole}");
+
+    let start = std::time::Instant::now();
+    let (points, surface) = rough_cross_polytope::<6>();
+    let error = convex_cells(&points, &surface).map(|cells| cells.len()).unwrap_err();
+    println!("{} simplices of 6D are refused: {:.1?}", surface.len(), start.elapsed());
+    assert_eq!(error.kind(), GeometryErrorKind::BadCount);
+    assert!(error.to_string().contains("takes too long to come apart into convex cells"), "{error}");
+}

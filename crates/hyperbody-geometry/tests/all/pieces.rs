@@ -31,8 +31,11 @@ impl Box3 {
     }
 }
 
-/// A file of several pieces, each with corners and faces.
-fn file_of(pieces: &[(Vec<[f64; 3]>, &[&[u32]])]) -> String {
+/// Corners and faces.
+type Piece<'a> = (Vec<[f64; 3]>, &'a [&'a [u32]]);
+
+/// A file of several pieces.
+fn file_of(pieces: &[Piece<'_>]) -> String {
     let (mut vertices, mut faces, mut first, mut count) = (String::new(), String::new(), 0, 0);
     for (corners, own) in pieces {
         corners.iter().for_each(|[x, y, z]| vertices += &format!("{x} {y} {z}\n"));
@@ -47,7 +50,7 @@ fn file_of(pieces: &[(Vec<[f64; 3]>, &[&[u32]])]) -> String {
     format!("OFF\n{first} {count} 0\n{vertices}{faces}")
 }
 
-fn cube(half: f64) -> (Vec<[f64; 3]>, &'static [&'static [u32]]) {
+fn cube(half: f64) -> Piece<'static> {
     (Box3 { low: [-half; 3], high: [half; 3] }.corners(), &FACES)
 }
 

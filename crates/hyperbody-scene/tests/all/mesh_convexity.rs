@@ -14,7 +14,7 @@ fn stored(name: &str, text: &str) -> PathBuf {
 
 /// The volume of the surface in a file if it is not convex, and in any case that of the body made of it.
 fn volumes(name: &str, text: &str) -> (Option<f64>, f64) {
-    let file = ShapeFile::load(&stored(name, text), None).unwrap();
+    let file = ShapeFile::load(stored(name, text), None).unwrap();
     let surface = file.mesh::<3>().unwrap().map(|(_, properties)| properties.mass);
     (surface, file.build::<3>().unwrap().mass_properties(1.0).unwrap().mass)
 }
@@ -113,6 +113,6 @@ fn a_polytope_that_stands_twice_in_a_file_is_refused() {
     let text = format!(
         "OFF\n8 8 0\n{corners}{corners}3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n3 4 5 6\n3 4 5 7\n3 4 6 7\n3 5 6 7\n"
     );
-    let error = ShapeFile::load(&stored("twice.off", &text), None).unwrap().mesh::<3>().unwrap_err().to_string();
+    let error = ShapeFile::load(stored("twice.off", &text), None).unwrap().mesh::<3>().unwrap_err().to_string();
     assert!(error.contains("faces 0 and 4 lie upon each other"), "{error}");
 }
