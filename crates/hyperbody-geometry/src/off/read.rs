@@ -5,6 +5,8 @@
 //! next face; and of vertices with colours, how many numbers a colour has. So a file is read in each of these ways, the usual one first, until one uses up exactly what is there. If none
 //! does, the error is that of the way that got farthest.
 
+mod lines;
+
 use super::OffFile;
 use crate::error::GeometryErrorKind::BadMesh;
 use crate::{GeometryError, Result};
@@ -68,6 +70,10 @@ pub fn parse(text: &str) -> Result<OffFile> {
             Err(fault) if farthest.as_ref().is_none_or(|best| fault.progress > best.progress) => farthest = Some(fault),
             Err(_) => {}
         }
+    }
+    let plain = header.beside == [Beside::Numbers(0)];
+    if let Some(misfit) = lines::misfit(dimension, &tokens[body..]).filter(|_| plain) {
+        return Err(explain(misfit));
     }
     Err(explain(farthest.unwrap_or_else(|| end_of_file(&tokens, "the counts of vertices and faces"))))
 }
@@ -161,6 +167,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn file(mut self, dimension: usize, convention: Convention) -> std::result::Result<OffFile, Fault> {
+        let body = self.next;
         let mut counts = Vec::new();
         for _ in 0..convention.counts {
             let count = self.integer("a number of elements")?;
@@ -203,7 +210,10 @@ impl<'a> Reader<'a> {
             // Everything that the counts announce was there: no other way of reading gets farther.
             Some(token) => Err(Fault {
                 line: token.line,
-                message: "there is more in the file than its counts of vertices and faces say".to_string(),
+                message: format!(
+                    "there is more in the file than its counts of vertices and faces say{}",
+                    lines::missing_counts(dimension, &self.tokens[body..])
+                ),
                 progress: self.tokens.len(),
             }),
         }
@@ -223,6 +233,11 @@ impl<'a> Reader<'a> {
             let size = self.integer("the size of a face")?;
             let token = self.tokens[self.next - 1];
             if size < rank + 1 {
+                let part = if size == 1 {
+                    part.replacen("vertices", "vertex", 1).replacen("faces", "face", 1)
+                } else {
+                    part.to_owned()
+                };
                 let message = format!("face {index} of rank {rank} has {size} {part}: it needs at least {}", rank + 1);
                 return Err(self.fault(&token, message));
             }
@@ -239,6 +254,10 @@ impl<'a> Reader<'a> {
                     return Err(self.fault(&token, message));
                 }
                 element.push(part_index as u32);
+            }
+            if let Some(message) = lines::named_twice(rank, index, &element) {
+                // As clear as can be, whatever other ways of reading make of it.
+                return Err(Fault { line: token.line, message, progress: self.tokens.len() });
             }
             elements.push(element);
             lines.push(token.line as u32);

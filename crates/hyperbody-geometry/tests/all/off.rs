@@ -165,6 +165,31 @@ fn errors_give_the_line_and_the_reason() {
     }
 }
 
+/// A count or a dimension in the header that is wrong shows on the first line that does not fit it, and the message says so.
+#[test]
+fn wrong_headers_are_told_from_wrong_lines() {
+    let cell = OffFile::from_polytope(&polytope::<4>("5-cell", Size::Edge(1.0)).unwrap()).to_string();
+    let cases = [
+        (TETRAHEDRON.replace("4 4 6", "5 4 6"), 7, "has 4 numbers where vertex 4 with 3 was expected"),
+        (TETRAHEDRON.replace("4 4 6", "3 4 6").replace("-1 -1 1", "0 1 1"), 6, "is the count of vertices (3) too low?"),
+        (TETRAHEDRON.replace("OFF", "4OFF"), 3, "has 3 numbers where a vertex of 4 was expected"),
+        (TETRAHEDRON.replace("OFF", "4OFF"), 3, "3OFF for 3 dimensions"),
+        (cell.replace("4OFF", "OFF"), 4, "has 4 numbers where a vertex of 3 was expected"),
+        (cell.replace("5 10 10 5", "5 10 10"), 19, "line 3 has 3 counts, and lacks that of the 3-faces (cells)"),
+        (TETRAHEDRON.replace("3 1 3 2", "1 1"), 10, "has 1 vertex: it needs"),
+        (TETRAHEDRON.replace("3 1 3 2", "4 1 3 3 2"), 10, "face 3 names vertex 3 twice"),
+        (TETRAHEDRON.replace("3 1 3 2", "4 1 3 2 1"), 10, "face 3 names vertex 1 twice"),
+        (cell.replacen("\n4 ", "\n5 0 ", 1), 19, "cell 0 names face 0 twice"),
+    ];
+    for (text, line, reason) in cases {
+        let message = off::parse(&text).unwrap_err().to_string();
+        assert!(message.contains(&format!("OFF, line {line}: ")) && message.contains(reason), "{text}: {message}");
+    }
+    // A slit from the rim to a hole passes twice through its ends, and is read.
+    let slit = "2OFF\n7 1\n0 0\n4 0\n0 4\n1 1\n2 1\n1 2\n9 9\n8 0 1 2 0 3 5 4 3\n";
+    assert_eq!(off::parse(slit).unwrap().elements(2)[0].len(), 8);
+}
+
 /// Changes made to each file.
 const MUTATIONS: usize = 10_000;
 
