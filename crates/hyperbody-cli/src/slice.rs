@@ -24,7 +24,8 @@ use project::Eye;
     hyperbody slice 24-cell.off -o corner.glb --normal 1,1,1,1 --offset 0.5\n  \
     hyperbody slice duocylinder.json -o round.obj --tolerance 0.0001       a curved shape, to a tenth of a millimetre\n  \
     hyperbody slice 24-cell.off -o wires.obj --project --eye 3              all edges and faces, in perspective\n  \
-    hyperbody slice 24-cell.off -o shadow.stl --project                     what the whole shape covers, seen along w\n\n\
+    hyperbody slice 24-cell.off -o shadow.stl --project                     what the whole shape covers, seen along w\n  \
+    hyperbody slice dodecahedron -o dice.stl                                a shape of 3D, as it is\n\n\
     The axes of the section are those of the shape after the shortest turn that takes its last axis to the normal: across \
     w, they are x, y and z; across −w the turn is half a turn in the plane xw, so that x points back. Faces keep the number of \
     the cell of a convex shape that they were cut from: as groups in .obj and as colours in .glb. Shapes that are not convex are \
@@ -47,7 +48,8 @@ pub(crate) struct SliceArguments {
     /// format
     #[arg(long)]
     pub(crate) project: bool,
-    /// With --project, perspective: the distance of the eye from the hyperplane, in metres, on the side of the normal
+    /// With --project, perspective: the distance of the eye from the hyperplane, in metres, on the side of the normal; for
+    /// shapes of polytopes, as curved ones are projected in parallel only
     #[arg(long, value_name = "METRES", requires = "project", allow_hyphen_values = true)]
     pub(crate) eye: Option<f64>,
     /// For curved shapes, how far the shape may reach beyond the facets of the file, in metres [default: a thousandth of the
@@ -77,11 +79,14 @@ struct Report {
     vertices: usize,
     faces: usize,
     /// Of the section, in m³; parts of a compound add up. Exact for polytopes and balls; curved sections of a shape of four
-    /// dimensions are measured themselves, to about 1e-7, and below further cuts it is what the faces enclose.
-    volume: f64,
-    /// What the faces enclose, in m³.
-    enclosed: f64,
-    /// Convex pieces that were cut.
+    /// dimensions are measured themselves, to about 1e-7, and below further cuts it is what the faces enclose. Null where
+    /// outlines may lie in each other.
+    volume: Option<f64>,
+    /// What the faces enclose, in m³; null likewise.
+    enclosed: Option<f64>,
+    /// Whether outlines of several pieces may lie in each other, so that no volume is that of what they cover.
+    overlapping: bool,
+    /// Convex pieces, each with a surface of its own.
     pieces: usize,
 }
 
@@ -91,6 +96,8 @@ struct Written {
     volume: f64,
     enclosed: f64,
     pieces: usize,
+    /// Whether surfaces of pieces may lie in each other.
+    overlapping: bool,
 }
 
 pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
@@ -103,6 +110,7 @@ pub(crate) fn slice(arguments: &SliceArguments) -> Result<(), Failure> {
         return project(arguments, &target, &file, &planes);
     }
     let written = match file.dimension {
+        3 => uncut(&file, arguments)?,
         4 => surface(down::<4, 3>(solids(&file)?, &planes)?.0, 1, arguments)?,
         5 => {
             let (solids, planes) = down::<5, 4>(solids(&file)?, &planes)?;
@@ -123,24 +131,26 @@ fn tell(arguments: &SliceArguments, written: &Written) -> Result<(), Failure> {
         file: arguments.output.display().to_string(),
         vertices: written.surface.vertices().len(),
         faces: written.surface.polygon_count(),
-        volume: written.volume,
-        enclosed: written.enclosed,
+        volume: (!written.overlapping).then_some(written.volume),
+        enclosed: (!written.overlapping).then_some(written.enclosed),
+        overlapping: written.overlapping,
         pieces: written.pieces,
     };
     if arguments.json {
         return print_json(&report);
     }
-    let mut lines = vec![
-        ("vertices", report.vertices.to_string()),
-        ("faces", report.faces.to_string()),
-        ("volume", format!("{} m³", number(report.volume))),
-    ];
-    if (report.enclosed - report.volume).abs() > 1e-9 * report.volume {
-        lines.push(("enclosed", format!("{} m³, by the faces of the file", number(report.enclosed))));
+    let mut lines = vec![("vertices", report.vertices.to_string()), ("faces", report.faces.to_string())];
+    if let (Some(volume), Some(enclosed)) = (report.volume, report.enclosed) {
+        lines.push(("volume", format!("{} m³", number(volume))));
+        if (enclosed - volume).abs() > 1e-9 * volume {
+            lines.push(("enclosed", format!("{} m³, by the faces of the file", number(enclosed))));
+        }
     }
     if report.pieces > 1 {
-        let also = if arguments.project {
-            "their outlines may overlap, and volumes add up"
+        let also = if report.overlapping {
+            "each has an outline of its own in the file, and where these lie in each other there is no volume to tell"
+        } else if arguments.project {
+            "each has an outline of its own in the file, apart from the others"
         } else {
             "walls between them are left out where they lie on each other"
         };
@@ -190,8 +200,11 @@ fn load(path: &Path, dimension: Option<u8>) -> Result<ShapeFile, Failure> {
         source::refuse_unknown_shape(&path.to_string_lossy(), &[])?;
     }
     let file = named.unwrap_or_else(|| ShapeFile::load(path, dimension)).map_err(source::with_dimension_hint)?;
-    if !(4..=6).contains(&file.dimension) {
-        let message = format!("is a shape of {} dimensions; sections in 3D are those of 4 to 6", file.dimension);
+    if !(3..=6).contains(&file.dimension) {
+        let message = format!(
+            "is a shape of {} dimensions; sections in 3D are those of 4 to 6, and shapes of 3 are written as they are",
+            file.dimension
+        );
         return Err(Failure::Input(format!("{}: {message}", path.display())));
     }
     Ok(file)
@@ -209,6 +222,16 @@ struct Plane {
 fn hyperplanes(arguments: &SliceArguments, dimension: usize) -> Result<Vec<Plane>, Failure> {
     let wanted = dimension - 3;
     let refuse = |message: String| Err(Failure::Input(message));
+    let given = [
+        ("--normal", !arguments.normal.is_empty()),
+        ("--offset", !arguments.offset.is_empty()),
+        ("--project", arguments.project),
+    ];
+    if let Some((option, _)) = given.iter().find(|(_, given)| wanted == 0 && *given) {
+        return refuse(format!(
+            "{option} is for shapes of 4 to 6 dimensions: one of 3 is written as it is, and neither cut to 2 nor projected"
+        ));
+    }
     let mut normals: Vec<Vec<f64>> = arguments.normal.iter().map(|normal| normal.0.clone()).collect();
     if normals.is_empty() {
         let axis = |k: usize| (0..dimension).map(|i| if i == dimension - 1 - k { 1.0 } else { 0.0 }).collect();
@@ -307,6 +330,12 @@ fn missed<const N: usize>(solids: &[Solid<N>], plane: &Plane, frame: &SliceFrame
     )
 }
 
+/// A shape of three dimensions as it is.
+fn uncut(file: &ShapeFile, arguments: &SliceArguments) -> Result<Written, Failure> {
+    let mass = file.build::<3>()?.mass_properties(1.0).map_err(|error| Failure::Input(error.to_string()))?;
+    Ok(Written { volume: mass.mass, ..surface(solids(file)?, 0, arguments)? })
+}
+
 /// What the volume of a curved piece may be off by, in parts of the box around it.
 const VOLUME_TOLERANCE: f64 = 1e-7;
 
@@ -330,7 +359,7 @@ fn surface(solids: Pieces<3>, cuts: usize, arguments: &SliceArguments) -> Result
         surface = surface.without_walls();
     }
     check_written(&surface)?;
-    Ok(Written { surface, volume, enclosed, pieces })
+    Ok(Written { surface, volume, enclosed, pieces, overlapping: false })
 }
 
 /// A thousandth of half the greatest extent of all pieces, wherever they stand.

@@ -12,6 +12,7 @@ mod coordinates;
 use hyperbody_math::Vector;
 
 use crate::error::GeometryErrorKind::{BadCount, BadNumber, UnknownName};
+use crate::star::tiled_by;
 use crate::tolerances::{MAX_LENGTH, MAX_POLYGON, MIN_LENGTH};
 use crate::{GeometryError, Polytope, Result};
 
@@ -133,6 +134,11 @@ impl Regular {
             }
         }
         let text: Vec<String> = symbol.iter().map(ToString::to_string).collect();
+        let fractions: Vec<(u32, u32)> = symbol.iter().map(|&p| (u32::try_from(p).unwrap_or(u32::MAX), 1)).collect();
+        if let Some(space) = tiled_by(&fractions) {
+            let message = format!("{{{}}} is a tiling of {space}, not a polytope", text.join(","));
+            return Err(GeometryError::new(UnknownName, message));
+        }
         Err(unknown(n, &format!("{{{}}}", text.join(","))))
     }
 

@@ -48,6 +48,9 @@ pub const NAMES: [(&str, &str); 14] = [
     ("great grand stellated 120-cell", "{5/2,3,3}"),
 ];
 
+/// Other names of star polygons that are the only one with so many vertices.
+const POLYGONS: [(&str, &str); 3] = [("pentagram", "{5/2}"), ("octagram", "{8/3}"), ("decagram", "{10/3}")];
+
 /// Most vertices: the great grand stellated 120-cell has 600. A symbol whose mirrors make more stands for no polytope, or for one
 /// that [`regular`](crate::regular) makes better.
 const MAX_VERTICES: usize = 1200;
@@ -58,13 +61,13 @@ const MAX_FACES: usize = 4800;
 /// Points of the unit sphere closer than this are one.
 const SAME: f64 = 1e-9;
 
-/// The entries of a symbol such as `"{5/2,5}"`, or of the name of a star polytope such as `"great icosahedron"`.
+/// The entries of a symbol such as `"{5/2,5}"`, or of the name of a star polytope such as `"great icosahedron"` or `"pentagram"`.
 ///
 /// # Errors
 /// `UnknownName` if it is neither.
 pub fn symbol(name: &str) -> Result<Vec<Fraction>> {
     let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
-    let named = NAMES.iter().find(|(known, _)| plain(known) == plain(name.trim()));
+    let named = NAMES.iter().chain(&POLYGONS).find(|(known, _)| plain(known) == plain(name.trim()));
     let text = named.map_or(name, |(_, symbol)| symbol);
     let inner = text.trim().strip_prefix('{').and_then(|rest| rest.strip_suffix('}')).unwrap_or("");
     let entry = |part: &str| {
@@ -72,6 +75,10 @@ pub fn symbol(name: &str) -> Result<Vec<Fraction>> {
         let (p, d): (u32, u32) = (p.trim().parse().ok()?, d.trim().parse().ok()?);
         (d >= 1 && p > 2 * d && p <= 100).then_some((p, d))
     };
+    if let Some(whole) = inner.split(',').find_map(|part| part.trim().strip_suffix("/1")) {
+        let message = format!("\"{name}\": {whole}/1 is the whole number {whole}: write {whole}");
+        return Err(GeometryError::new(UnknownName, message));
+    }
     let entries: Option<Vec<Fraction>> = inner.split(',').map(entry).collect();
     if let Some(&(p, d)) = entries.iter().flatten().find(|&&(p, d)| !in_lowest_terms(p, d)) {
         return Err(not_in_lowest_terms(name, p, d));
@@ -156,6 +163,10 @@ pub fn surface(symbol: &[Fraction], size: Size) -> Result<OffFile> {
 fn endless(symbol: &[Fraction]) -> GeometryError {
     let entry = |&(p, d): &Fraction| if d == 1 { p.to_string() } else { format!("{p}/{d}") };
     let text: Vec<String> = symbol.iter().map(entry).collect();
+    if let Some(space) = tiled_by(symbol) {
+        let message = format!("{{{}}} is a tiling of {space}, not a polytope", text.join(","));
+        return GeometryError::new(UnknownName, message);
+    }
     GeometryError::new(
         UnknownName,
         format!(
@@ -164,6 +175,29 @@ fn endless(symbol: &[Fraction]) -> GeometryError {
             NAMES.map(|(_, symbol)| symbol).join(", ")
         ),
     )
+}
+
+/// What a symbol of whole numbers tiles, if it stands for no polytope: its mirrors fit into no sphere then. What is left of the last
+/// normal beside the others is nothing where they are parallel to one line, as those of a flat space, and its square is negative
+/// where they are those of a hyperbolic one.
+pub(crate) fn tiled_by(symbol: &[Fraction]) -> Option<&'static str> {
+    if symbol.len() < 2 || symbol.iter().any(|&(p, d)| d != 1 || p < 3) {
+        return None;
+    }
+    // The Gram determinants of the first k mirrors, D_k = D_(k−1) − cos²(π/p) D_(k−2).
+    let (mut before, mut last) = (1.0, 1.0);
+    for (position, &(p, _)) in symbol.iter().enumerate() {
+        let cos = scalar::cos(std::f64::consts::PI / f64::from(p));
+        (before, last) = (last, last - cos * cos * before);
+        let flat = last.abs() < 1e-9;
+        if flat && position + 1 == symbol.len() {
+            return Some(if symbol.len() == 2 { "the plane" } else { "flat space" });
+        }
+        if flat || last < 0.0 {
+            return Some(if symbol.len() == 2 { "the hyperbolic plane" } else { "hyperbolic space" });
+        }
+    }
+    None
 }
 
 /// Unit normals of mirrors at the angles of the symbol, each with zeros after its own coordinate: the Cholesky factor of their

@@ -53,6 +53,22 @@ impl SceneError {
         self
     }
 
+    /// The error of a file as a whole.
+    #[must_use]
+    pub(crate) fn without_place(mut self) -> Self {
+        self.place.clear();
+        self
+    }
+
+    /// The error with more said at its end, if its message begins so and does not say that already.
+    #[must_use]
+    pub(crate) fn explained(mut self, beginning: &str, more: &str) -> Self {
+        if self.message.starts_with(beginning) && !self.message.contains(" inside this ") {
+            self.message.push_str(more);
+        }
+        self
+    }
+
     /// The kind, for programs.
     #[must_use]
     pub fn kind(&self) -> ErrorKind {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use hyperbody::geometry::MassProperties;
 use hyperbody::geometry::regular::{self, Regular, Size};
 use hyperbody::geometry::star;
+use hyperbody::math::planes::AXIS_NAMES;
 use hyperbody::math::{Dim, EvenAlgebra};
 use hyperbody::prelude::Shape;
 
@@ -14,7 +15,7 @@ use crate::error::{ErrorKind, SceneError, meant};
 use crate::json::Json;
 use crate::model::{Beside, PolytopeSpec, ShapeSpec};
 use crate::off;
-use crate::read::{At, MAX_FILE_BYTES, Result, join, read_text, shape};
+use crate::read::{At, MAX_FILE_BYTES, Result, join, made_as, read_text, shape};
 
 /// A shape and its dimension, read from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,6 +93,9 @@ impl ShapeFile {
                     {3,4,3}, {5/2,5}"
                 .to_owned();
         }
+        if let Some(own) = made_as(name) {
+            return format!("; as a .json file it is {own}");
+        }
         let mut known: Vec<&str> = DIMENSIONS.flat_map(regular::names).chain(ALSO).collect();
         known.extend(star::NAMES.iter().map(|(name, _)| *name));
         known.extend(others);
@@ -133,6 +137,22 @@ impl ShapeFile {
         off::mesh::<N>(&text, "").map_err(|error| error.in_file(Some(&self.file)))
     }
 
+    /// Numbers of vertices, edges, …, facets that an OFF file lists. A convex body may have fewer: flat neighbours are one face of it, and
+    /// vertices that no face names are none. `None` for all other files, and for those that list no facets.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn listed_faces(&self) -> Result<Option<Vec<usize>>> {
+        if !is_off(&self.file) || !self.file.is_file() {
+            return Ok(None);
+        }
+        let file = read_text(&self.file, MAX_FILE_BYTES).and_then(|text| off::read(&text, ""));
+        let file = file.map_err(|error| error.in_file(Some(&self.file)))?;
+        let mut counts = vec![file.vertex_count(), file.edge_count()];
+        counts.extend((2..file.dimension()).map(|rank| file.elements(rank).len()));
+        Ok((counts.last() != Some(&0)).then_some(counts))
+    }
+
     /// The shape, in `N` dimensions, of convex cells if the surface in an OFF file is not convex; `N` has to be
     /// [`ShapeFile::dimension`].
     ///
@@ -150,7 +170,9 @@ impl ShapeFile {
             spec = ShapeSpec::Mesh { file: file.clone() };
         }
         let shape = ShapeBuilder::new(beside(&self.file)).shape(&spec, "");
-        shape.map_err(|error| error.in_file(Some(&self.file)))
+        // In an OFF file itself nobody wrote the keys of a shape.
+        let placed = |error: SceneError| if is_off(&self.file) { error.without_place() } else { error };
+        shape.map_err(|error| placed(error).in_file(Some(&self.file)))
     }
 }
 
@@ -232,6 +254,13 @@ fn settled_dimension(shape: &ShapeSpec, told: Option<usize>, wanted: Option<usiz
 /// What a name is told that stands for nothing in any dimension.
 fn unknown_name(name: &str) -> String {
     let known: Vec<&str> = DIMENSIONS.flat_map(regular::names).chain(ALSO).collect();
+    if is_star(name) {
+        return format!("\"{name}\" is a star polytope: use \"star\" in place of \"polytope\"");
+    }
+    // What stands for a polytope by its form is told why it is none: {4,4} is a tiling.
+    if let Some(Err(error)) = star::symbol(name).ok().map(|symbol| Regular::from_name(symbol.len() + 1, name)) {
+        return error.to_string();
+    }
     let stars = star::NAMES.iter().map(|(name, _)| *name);
     let hint = meant(name, known.iter().copied().chain(stars))
         .map_or(String::new(), |near| format!("; the nearest is \"{near}\""));
@@ -241,8 +270,22 @@ fn unknown_name(name: &str) -> String {
     )
 }
 
+/// Whether a name or symbol is that of a polytope whose faces or vertices are stars.
+pub(crate) fn is_star(name: &str) -> bool {
+    star::symbol(name).is_ok_and(|symbol| symbol.iter().any(|&(_, d)| d > 1))
+}
+
 /// Names that [`regular::names`] leaves out: second ones, and those of whole families.
 const ALSO: [&str; 4] = ["tesseract", "simplex", "hypercube", "cross-polytope"];
+
+/// The least dimension that has all the axes that are named, so that one that is left out is told as missing.
+fn axes_up_to(axes: &str) -> usize {
+    axes.chars()
+        .filter_map(|letter| AXIS_NAMES.iter().position(|&name| name == letter))
+        .map(|axis| axis + 1)
+        .max()
+        .unwrap_or(0)
+}
 
 impl ShapeSpec {
     /// The dimension, as far as the shape's own numbers and names tell.
@@ -260,9 +303,12 @@ impl ShapeSpec {
             }
             Self::Polytope(PolytopeSpec::File(_)) | Self::Mesh { .. } => None,
             Self::Star { name, .. } => star::symbol(name).ok().map(|symbol| symbol.len() + 1),
-            Self::Pyramid { base, .. } => Some(base.axes.chars().count() + 1),
+            Self::Pyramid { base, .. } => Some((base.axes.chars().count() + 1).max(axes_up_to(&base.axes))),
             Self::Rounded { shape, .. } => shape.dimension(),
-            Self::Product { factors } => Some(factors.iter().map(|factor| factor.axes.chars().count()).sum()),
+            Self::Product { factors } => {
+                let axes: String = factors.iter().map(|factor| factor.axes.as_str()).collect();
+                Some(axes.chars().count().max(axes_up_to(&axes)))
+            }
             Self::Compound { parts } => parts.iter().find_map(|part| {
                 let told = (!part.position.is_empty()).then_some(part.position.len());
                 told.or_else(|| part.shape.dimension())

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use hyperbody::geometry::projection::{Projection, Wireframe};
 use hyperbody::geometry::{SectionPolytope, SliceFrame, Solid, Surface};
+use hyperbody::math::Vector;
 
 use super::{Pieces, Plane, Written, check_written, frame_and_rest, usual_tolerance};
 use crate::failure::Failure;
@@ -83,6 +84,7 @@ pub(super) fn outlines(pieces: &[Seen<3>], tolerance: Option<f64>) -> Result<Wri
     let tolerance = tolerance.unwrap_or_else(|| usual_tolerance(curved));
     let mut surface = Surface::new();
     let mut volume = 0.0;
+    let mut boxes = Vec::with_capacity(pieces.len());
     for (number, piece) in pieces.iter().enumerate() {
         let polytope = match piece {
             Seen::Wire(wire) => Some(SectionPolytope::from_polytope(&wire.outline().map_err(refuse)?)),
@@ -90,10 +92,30 @@ pub(super) fn outlines(pieces: &[Seen<3>], tolerance: Option<f64>) -> Result<Wri
         };
         let Some(polytope) = polytope else { continue };
         volume += polytope.mass_properties().mass;
+        boxes.push(bounds(polytope.vertices()));
         surface.add_polytope(&polytope.with_source(0), number as u32);
     }
     check_written(&surface)?;
-    Ok(Written { surface, volume, enclosed: volume, pieces: pieces.len() })
+    let overlapping = some_overlap(boxes);
+    Ok(Written { surface, volume, enclosed: volume, pieces: pieces.len(), overlapping })
+}
+
+/// Whether two of the boxes overlap, by a sweep along x.
+fn some_overlap(mut boxes: Vec<([f64; 3], [f64; 3])>) -> bool {
+    boxes.sort_unstable_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    boxes.iter().enumerate().any(|(index, (low, high))| {
+        let met =
+            |other: &&([f64; 3], [f64; 3])| (1..3).all(|axis| low[axis] < other.1[axis] && other.0[axis] < high[axis]);
+        boxes[index + 1..].iter().take_while(|other| other.0[0] < high[0]).any(|other| met(&other))
+    })
+}
+
+/// The least and greatest coordinates.
+fn bounds(points: &[Vector<3>]) -> ([f64; 3], [f64; 3]) {
+    let reach = |worst: f64, better: fn(f64, f64) -> f64| {
+        std::array::from_fn(|axis| points.iter().map(|point| point[axis]).fold(worst, better))
+    };
+    (reach(f64::INFINITY, f64::min), reach(f64::NEG_INFINITY, f64::max))
 }
 
 /// All edges and faces of the polytopes as an OBJ file: lines and polygons, those behind others included. `None` if a piece is

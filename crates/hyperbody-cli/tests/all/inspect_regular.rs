@@ -1,6 +1,6 @@
 //! `inspect --json` of every regular polytope, by its names and Schläfli symbol: face counts, volume and moments of the closed forms.
 
-use crate::common::{file, json_of};
+use crate::common::{file, hyperbody, json_of};
 
 fn binomial(n: u64, k: u64) -> u64 {
     (0..k).fold(1, |product, i| product * (n - i) / (i + 1))
@@ -121,6 +121,23 @@ fn the_other_polychora() {
     let volume = 15.0 / 4.0 * (105.0 + 47.0 * root_5) * edge_sq * edge_sq;
     let moment = (inradius_sq + (39.0 * phi + 28.0) / 100.0 * edge_sq) / 6.0;
     check(4, &["120-cell", "hecatonicosachoron", "{5,3,3}"], &[600, 1200, 720, 120], volume, moment);
+}
+
+/// A cube with one square listed as two triangles.
+#[test]
+fn flat_neighbours_are_told_to_be_joined() {
+    let cube = "OFF\n8 7 13\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n\
+                4 1 2 6 5\n4 2 3 7 6\n3 3 0 4\n3 4 7 3\n";
+    let path = file("regular/joined.off", cube);
+    let path = path.to_str().expect("UTF-8");
+    let report = json_of(&["inspect", path, "--json"]);
+    assert_eq!(report["faces"], serde_json::json!([8, 12, 6]));
+    assert_eq!(report["faces_in_file"], serde_json::json!([8, 13, 7]));
+    let text = String::from_utf8_lossy(&hyperbody(&["inspect", path]).stdout).into_owned();
+    assert!(text.contains("8 vertices, 13 edges, 7 faces: flat neighbours are joined"), "{text}");
+    let whole = cube.replace("3 3 0 4\n3 4 7 3", "4 3 0 4 7").replace("8 7 13", "8 6 12");
+    let path = file("regular/whole.off", whole);
+    assert!(json_of(&["inspect", path.to_str().expect("UTF-8"), "--json"]).get("faces_in_file").is_none());
 }
 
 /// A file that is not convex: a pyramid with a pyramid cut out of its base.

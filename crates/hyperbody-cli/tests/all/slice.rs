@@ -160,6 +160,95 @@ fn star_polytopes_are_weighed_and_cut() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// Outlines of pieces lie in each other, and their volumes add up to that of nothing.
+#[test]
+fn outlines_of_several_pieces_have_no_volume() {
+    let out = file("slice/outlines.stl", "");
+    let out = out.to_str().expect("UTF-8");
+    let report = json_of(&["slice", "{5/2,5,3}", "-o", out, "--project", "--json"]);
+    assert_eq!(
+        (&report["volume"], &report["enclosed"]),
+        (&serde_json::Value::Null, &serde_json::Value::Null),
+        "{report}"
+    );
+    assert_eq!((report["overlapping"].as_bool(), report["pieces"].as_u64()), (Some(true), Some(120)), "{report}");
+    let text = String::from_utf8_lossy(&hyperbody(&["slice", "{5/2,5,3}", "-o", out, "--project"]).stdout).into_owned();
+    assert!(!text.contains("volume  ") && text.contains("there is no volume to tell"), "{text}");
+    let cube =
+        |x: f64| format!(r#"{{"shape": {{"box": {{"half_extents": [1, 1, 1, 1]}}}}, "position": [{x}, 0, 0, 0]}}"#);
+    let apart = file("slice/apart.json", format!(r#"{{"compound": {{"parts": [{}, {}]}}}}"#, cube(0.0), cube(3.0)));
+    let report = json_of(&["slice", apart.to_str().expect("UTF-8"), "-o", out, "--project", "--json"]);
+    assert!((number(&report["volume"]) - 16.0).abs() < 1e-9 && report["overlapping"] == false, "{report}");
+}
+
+/// Shapes of three dimensions need no cut.
+#[test]
+fn shapes_of_3d_are_written_as_they_are() {
+    let out = file("slice/solid.off", "");
+    let out = out.to_str().expect("UTF-8");
+    json_of(&["slice", "dodecahedron", "-o", out, "--json"]);
+    let inspected = json_of(&["inspect", out, "--json"]);
+    assert_eq!(inspected["faces"], serde_json::json!([20, 30, 12]));
+    let ball = file("slice/ball3.json", r#"{"ball": {"radius": 1}}"#);
+    let report = json_of(&["slice", ball.to_str().expect("UTF-8"), "-o", out, "--dimension", "3", "--json"]);
+    assert!((number(&report["volume"]) - 4.0 / 3.0 * std::f64::consts::PI).abs() < 1e-12, "{report}");
+    let report = json_of(&["slice", "great dodecahedron", "-o", out, "--json"]);
+    let weighed = json_of(&["inspect", "great dodecahedron", "--json"]);
+    assert!((number(&report["volume"]) / number(&weighed["body"]["volume"]) - 1.0).abs() < 1e-9, "{report}");
+}
+
+/// A star is weighed by its winding numbers, and as a body once; a convex shape is the same either way.
+#[test]
+fn bodies_of_stars_are_weighed_beside_them() {
+    let report = json_of(&["inspect", "pentagram", "--json"]);
+    let sin = |fifths: f64| (fifths * std::f64::consts::PI / 5.0).sin();
+    // The triangles from the centre to the five edges, and the ten to the sides of the outline, whose inner corners are at 1/φ².
+    let inner = (3.0 - 5_f64.sqrt()) / 2.0;
+    assert!((number(&report["volume"]) - 2.5 * sin(4.0)).abs() < 1e-12, "{report}");
+    assert!((number(&report["body"]["volume"]) - 5.0 * inner * sin(1.0)).abs() < 1e-12, "{report}");
+    assert_eq!(report["body"]["second_moments"].as_array().map(Vec::len), Some(2));
+    let text = String::from_utf8_lossy(&hyperbody(&["inspect", "pentagram"]).stdout).into_owned();
+    assert!(text.contains("as a body: volume") && text.contains("as often as the surface winds"), "{text}");
+    assert!(json_of(&["inspect", "24-cell", "--json"]).get("body").is_none());
+}
+
+/// What is wrong with a shape is told in its own words, and an OFF file has no keys.
+#[test]
+fn shapes_are_refused_in_their_own_words() {
+    let factor = |shape: &str, axes: &str| format!(r#"{{"shape": {shape}, "axes": "{axes}"}}"#);
+    let product = |factors: &[String]| format!(r#"{{"product": {{"factors": [{}]}}}}"#, factors.join(", "));
+    let (ball, segment) = (r#"{"ball": {"radius": 0.5}}"#, r#"{"box": {"half_extents": [0.5]}}"#);
+    let cylinder = |axes: [&str; 2]| product(&[factor(ball, axes[0]), factor(segment, axes[1])]);
+    let pyramid = |base: &str| format!(r#"{{"pyramid": {{"base": {}, "height": 1}}}}"#, factor(base, "xzw"));
+    let cone = r#"{"pyramid": {"base": {"shape": {"ball": {"radius": 0.5}}, "axes": "xy"}, "height": 1}}"#;
+    let cases = [
+        (pyramid(&cylinder(["xz", "w"])), "inside this base its axes x, z, w are called x, y, z"),
+        (pyramid(&cylinder(["xy", "z"])), "the base of a pyramid is a product with curved factors"),
+        (pyramid(cone), "the base of a pyramid is a cone"),
+        (cylinder(["xy", "w"]), "z not at all"),
+        (r#"{"sphere": {"radius": 1}}"#.to_owned(), "it is \"ball\" here"),
+        (r#"{"polytope": {"regular": "{5/2,5}", "circumradius": 1}}"#.to_owned(), "use \"star\""),
+        (r#"{"polytope": {"regular": "{4,4}", "circumradius": 1}}"#.to_owned(), "a tiling of the plane"),
+    ];
+    for (text, reason) in cases {
+        let path = file("slice/refused-shape.json", &text);
+        let output = hyperbody(&["inspect", path.to_str().expect("UTF-8")]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && error.contains(reason), "{text}: {error}");
+    }
+    let open = file("slice/open.off", "OFF\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n");
+    let error = String::from_utf8_lossy(&hyperbody(&["inspect", open.to_str().expect("UTF-8")]).stderr).into_owned();
+    assert!(error.contains("open.off: ") && error.contains("open") && !error.contains("polytope.file"), "{error}");
+    // A product of a product is that of all their factors.
+    let nested = product(&[factor(&cylinder(["xz", "y"]), "xwy"), factor(segment, "z")]);
+    let flat = product(&[factor(ball, "xy"), factor(segment, "w"), factor(segment, "z")]);
+    let [nested, flat] = [("nested", nested), ("flat", flat)].map(|(name, text)| {
+        let path = file(&format!("slice/{name}-product.json"), text);
+        json_of(&["inspect", path.to_str().expect("UTF-8"), "--json"])
+    });
+    assert_eq!(nested, flat);
+}
+
 /// A prism over an L, and a ball far from the origin: what `inspect` weighs, `slice` cuts, wherever it stands.
 #[test]
 fn files_that_are_not_convex_and_far_ones_are_cut() {
@@ -250,10 +339,15 @@ fn what_cannot_be_cut_is_refused_with_the_reason() {
         (&path(&shape), &["--normal", "0,0,0,0"], "not zero"),
         (&path(&shape), &["--offset", "1", "--offset", "2"], "given 2 times"),
         (&path(&shape), &["--offset", "nan"], "offset of a slice is NaN"),
-        (&path(&flat), &[], "3 dimensions"),
+        (&path(&flat), &["--normal", "1,1,1"], "--normal is for shapes of 4 to 6 dimensions"),
+        (&path(&flat), &["--project"], "neither cut to 2 nor projected"),
         (&path(&floor), &[], "half-space has no end"),
         ("nowhere.off", &[], "nowhere.off"),
-        ("tetrahedron", &[], "sections in 3D are those of 4 to 6"),
+        ("triangle", &[], "sections in 3D are those of 4 to 6, and shapes of 3 are written as they are"),
+        ("{4,4}", &[], "a tiling of the plane, not a polytope"),
+        ("{7,3}", &[], "a tiling of the hyperbolic plane"),
+        ("{5/1}", &[], "write 5"),
+        ("duocylinder", &[], "it is \"product\" of two balls"),
         ("simplex", &[], "does not tell its dimension"),
         ("600-cel", &[], "no regular polytope of that name; the nearest is \"600-cell\""),
         ("{6/2}", &[], "{6/2} is 2 polygons {3} turned against each other"),

@@ -16,6 +16,7 @@ use crate::error::{ErrorKind, SceneError};
 use crate::model::{Beside, PolytopeSpec, ShapeSpec, Size};
 use crate::off;
 use crate::read::{join, read_text};
+use crate::shape_file::is_star;
 
 /// Most vertices of one polytope: the 120-cell has 600, and the cost of a hull grows fast with their number.
 pub const MAX_VERTICES: usize = 10_000;
@@ -95,19 +96,12 @@ where
             }
             ShapeSpec::Pyramid { base, height } => {
                 product::check_base_axes::<N>(&base.axes, &format!("{path}.base.axes"))?;
-                let base = product::factor::<N>(base, self.beside, &format!("{path}.base"), depth)?;
+                let base = product::base::<N>(base, self.beside, &format!("{path}.base"), depth)?;
                 Shape::pyramid(base, *height).map_err(refuse(&path))
             }
             ShapeSpec::Product { factors } => {
-                let made: Result<Vec<_>> = factors
-                    .iter()
-                    .enumerate()
-                    .map(|(index, factor)| {
-                        product::factor::<N>(factor, self.beside, &format!("{path}.factors[{index}]"), depth)
-                    })
-                    .collect();
-                let made = made?;
-                product::check_axes::<N>(factors, &format!("{path}.factors"))?;
+                let made = product::factors::<N>(factors, self.beside, &format!("{path}.factors"), depth)?;
+                product::check_axes(N, factors, &format!("{path}.factors"))?;
                 Shape::product(made).map_err(refuse(&path))
             }
             ShapeSpec::Compound { parts } => {
@@ -173,13 +167,16 @@ fn compound_of<const N: usize>(cells: &[Arc<Polytope<N>>]) -> geometry::Result<S
     parts.and_then(Shape::compound)
 }
 
+/// How the message begins that an axis has no such name.
+pub(super) const UNKNOWN_AXIS: &str = "unknown axis";
+
 pub(super) fn axis<const N: usize>(name: &str, path: &str) -> Result<usize> {
     let mut letters = name.chars();
     match (letters.next().and_then(|letter| axis_from_name(N, letter)), letters.next()) {
         (Some(axis), None) => Ok(axis),
         _ => {
             let known: Vec<String> = AXIS_NAMES[..N].iter().map(char::to_string).collect();
-            let message = format!("unknown axis \"{name}\"; in {N} dimensions there are {}", known.join(", "));
+            let message = format!("{UNKNOWN_AXIS} \"{name}\"; in {N} dimensions there are {}", known.join(", "));
             Err(SceneError::value(path, message))
         }
     }
@@ -196,7 +193,12 @@ fn hull<const N: usize>(vertices: &[Vec<f64>], path: &str) -> Result<Polytope<N>
     }
     Polytope::from_points(&points).map_err(|error| shape_error(path, &error))
 }
+
 fn regular<const N: usize>(name: &str, size: Size, path: &str) -> Result<Polytope<N>> {
+    if is_star(name) {
+        let message = format!("\"{name}\" is a star polytope: use \"star\" in place of \"polytope\"");
+        return Err(SceneError::new(ErrorKind::Shape, format!("{path}.regular"), message));
+    }
     let regular = Regular::from_name(N, name).map_err(|error| shape_error(&format!("{path}.regular"), &error))?;
     regular.polytope(size).map_err(|error| shape_error(path, &error))
 }

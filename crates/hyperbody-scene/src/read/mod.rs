@@ -18,7 +18,7 @@ use crate::error::{ErrorKind, SceneError, nearest};
 use crate::json::Json;
 use crate::model::{NamedMaterial, Scene};
 pub(crate) use cursor::{At, join};
-pub(crate) use shape::shape;
+pub(crate) use shape::{made_as, shape};
 
 pub(crate) type Result<T> = std::result::Result<T, SceneError>;
 

@@ -1,6 +1,6 @@
 //! Shapes.
 
-use super::cursor::{At, unknown_key};
+use super::cursor::{At, join, unknown_key};
 use super::{Result, rotation};
 use crate::error::SceneError;
 use crate::model::{Factor, Part, PolytopeSpec, RotationSpec, ShapeSpec, Size};
@@ -8,6 +8,33 @@ use crate::model::{Factor, Part, PolytopeSpec, RotationSpec, ShapeSpec, Size};
 /// The shapes that this version builds.
 pub(crate) const SHAPES: [&str; 11] =
     ["ball", "box", "half_space", "capsule", "polytope", "rounded", "product", "pyramid", "star", "mesh", "compound"];
+
+/// What shapes are called here that people know by other names.
+const OTHER_NAMES: [(&str, &str); 17] = [
+    ("sphere", "\"ball\""),
+    ("hypersphere", "\"ball\""),
+    ("disc", "\"ball\" in 2D"),
+    ("cuboid", "\"box\""),
+    ("cube", "\"box\""),
+    ("tesseract", "\"box\""),
+    ("plane", "\"half_space\""),
+    ("cylinder", "\"product\" of a ball and a segment"),
+    ("spherinder", "\"product\" of a ball and a segment"),
+    ("cubinder", "\"product\" of a ball and a box"),
+    ("duocylinder", "\"product\" of two balls"),
+    ("prism", "\"product\" of a polytope and a segment"),
+    ("duoprism", "\"product\" of two polygons"),
+    ("cone", "\"pyramid\" over a ball"),
+    ("union", "\"compound\""),
+    ("hull", "\"polytope\" with \"vertices\""),
+    ("torus", "made of nothing but a \"mesh\": curved bodies are convex"),
+];
+
+/// How a shape is made here that people call so.
+pub(crate) fn made_as(name: &str) -> Option<&'static str> {
+    let lower = name.to_lowercase();
+    OTHER_NAMES.iter().find(|(other, _)| *other == lower).map(|(_, own)| *own)
+}
 
 pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
     let (key, inner) = at.variant("the kind of shape", &SHAPES)?;
@@ -65,7 +92,13 @@ pub(crate) fn shape(at: &At<'_>) -> Result<ShapeSpec> {
             let parts = fields.required("parts")?.list("a list of parts")?;
             Ok(ShapeSpec::Compound { parts: parts.iter().map(part).collect::<Result<_>>()? })
         }
-        key => Err(unknown_key(&at.path, key, &SHAPES)),
+        key => Err(match made_as(key) {
+            Some(own) => {
+                let message = format!("unknown key \"{key}\": it is {own} here (known: {})", SHAPES.join(", "));
+                SceneError::structure(join(&at.path, key), message)
+            }
+            None => unknown_key(&at.path, key, &SHAPES),
+        }),
     }
 }
 
