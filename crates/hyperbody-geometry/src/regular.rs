@@ -136,7 +136,11 @@ impl Regular {
         let text: Vec<String> = symbol.iter().map(ToString::to_string).collect();
         let fractions: Vec<(u32, u32)> = symbol.iter().map(|&p| (u32::try_from(p).unwrap_or(u32::MAX), 1)).collect();
         if let Some(space) = tiled_by(&fractions) {
-            let message = format!("{{{}}} is a tiling of {space}, not a polytope", text.join(","));
+            let message = format!(
+                "{{{}}} is a tiling of {space}, not a polytope; in {n} dimensions there are {}",
+                text.join(","),
+                names(n).join(", ")
+            );
             return Err(GeometryError::new(UnknownName, message));
         }
         Err(unknown(n, &format!("{{{}}}", text.join(","))))

@@ -149,6 +149,21 @@ fn unknown_names_are_told_what_exists() {
     assert!(message(4, "dodecahedron").contains("has 3 dimensions"));
     assert!(message(3, "{3,4,3}").contains("{3,4,3}"));
     assert!(message(3, "{5,5}").contains("icosahedron"));
+    for (n, symbol, space) in [
+        (3, "{4,4}", "the plane"),
+        (3, "{3,6}", "the plane"),
+        (3, "{5,5}", "the hyperbolic plane"),
+        (4, "{4,3,4}", "flat space"),
+        (4, "{5,3,4}", "hyperbolic space"),
+        (4, "{4,4,3}", "hyperbolic space"),
+        (5, "{3,4,3,3}", "flat space"),
+    ] {
+        assert!(
+            message(n, symbol).contains(&format!("is a tiling of {space}, not")),
+            "{symbol}: {}",
+            message(n, symbol)
+        );
+    }
     assert!(message(6, "").contains("6-cube"));
     assert!(message(5, "4-cube").contains("5-cube"));
     for p in [0, 1, 2, 20_000] {

@@ -27,7 +27,7 @@ const OTHER_NAMES: [(&str, &str); 17] = [
     ("cone", "\"pyramid\" over a ball"),
     ("union", "\"compound\""),
     ("hull", "\"polytope\" with \"vertices\""),
-    ("torus", "made of nothing but a \"mesh\": curved bodies are convex"),
+    ("torus", "a \"mesh\" from an OFF file, as curved bodies are convex"),
 ];
 
 /// How a shape is made here that people call so.
