@@ -13,6 +13,7 @@ use hyperbody_math::{Matrix, Vector};
 use crate::error::GeometryErrorKind::{BadCount, BadMesh};
 use crate::hull::plane::Hyperplane;
 use crate::mass::MassProperties;
+use crate::order;
 use crate::tolerances::{MAX_CELLS, MAX_CUTTING_WORK, MAX_JOINED_CELLS};
 use crate::{GeometryError, Polytope, Result};
 
@@ -79,13 +80,13 @@ struct Uncut<const N: usize> {
     /// In how many hyperplanes they lie: each of them has to be one of the cuts.
     planes: usize,
     /// Which side of each cut it is on, so that cells come in the same order in whatever order they are cut.
-    sides: Vec<bool>,
+    sides: Vec<u32>,
 }
 
 /// Cuts a polytope by hyperplanes of walls until none passes through any cell. What is cut most comes first, so that a surface that takes
 /// too many cuts is known early, by the hyperplanes that are still to come.
 fn partition<const N: usize>(hull: Polytope<N>, all: &[Wall<N>], tolerance: f64) -> Result<Vec<Polytope<N>>> {
-    let mut done: Vec<(Vec<bool>, Polytope<N>)> = Vec::new();
+    let mut done: Vec<(Vec<u32>, Polytope<N>)> = Vec::new();
     let mut waiting: Vec<Uncut<N>> = Vec::new();
     let mut halves = vec![(hull, (0..all.len()).collect::<Vec<usize>>(), Vec::new())];
     let (mut cuts, mut planes_left, mut work) = (0, 0, 0);
@@ -118,14 +119,15 @@ fn partition<const N: usize>(hull: Polytope<N>, all: &[Wall<N>], tolerance: f64)
         planes_left -= planes;
         cuts += 1;
         let Some(plane) = best_plane(all, &crossing, tolerance) else { continue };
-        for (side, plane) in [(true, plane), (false, plane.flipped())] {
+        for (side, plane) in [(1, plane), (0, plane.flipped())] {
             if let Some(half) = clip(&cell, &plane, tolerance) {
                 halves.push((half, crossing.clone(), [&sides[..], &[side]].concat()));
             }
         }
     }
-    done.sort_by(|(a, _), (b, _)| a.cmp(b));
-    Ok(done.into_iter().map(|(_, cell)| cell).collect())
+    let order = order::of_lists(&done.iter().map(|(sides, _)| &sides[..]).collect::<Vec<_>>());
+    let mut cells: Vec<Option<Polytope<N>>> = done.into_iter().map(|(_, cell)| Some(cell)).collect();
+    Ok(order.into_iter().filter_map(|place| cells[place].take()).collect())
 }
 
 /// What it takes to make the hull of a polytope, roughly, in half microseconds. From four dimensions on every vertex has to do with

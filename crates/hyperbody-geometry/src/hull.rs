@@ -25,6 +25,7 @@ mod wide;
 use hyperbody_math::Vector;
 
 use crate::error::GeometryErrorKind::{BadCount, BadNumber, Flat, Unsupported};
+use crate::order;
 use crate::tolerances::{
     FLATNESS, HULL_ATTEMPTS, HULL_TOLERANCE, HULL_TOLERANCE_GROWTH, MAX_GROWN_TOLERANCE, MAX_HULL_POINTS,
     MAX_HULL_SIMPLICES,
@@ -96,8 +97,8 @@ fn hull_of_scaled<const N: usize>(
 fn first_of_equals<const N: usize>(points: &[Vector<N>]) -> Vec<u32> {
     // Adding zero makes −0 and 0 one number.
     let key = |index: u32| points[index as usize].0.map(|c| (c + 0.0).to_bits());
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_unstable_by_key(|&index| (key(index), index));
+    let keys: Vec<u64> = points.iter().flat_map(|point| point.0.map(|c| (c + 0.0).to_bits())).collect();
+    let mut order = order::of_keys(&keys, N);
     order.dedup_by_key(|index| key(*index));
     order.sort_unstable();
     order

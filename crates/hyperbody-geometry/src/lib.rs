@@ -33,6 +33,7 @@ pub mod hull;
 mod incidence;
 pub mod mass;
 pub mod off;
+mod order;
 pub mod polytope;
 pub mod product;
 pub mod projection;

@@ -6,6 +6,7 @@ use super::kernel::Kernel;
 use super::plane::Hyperplane;
 use super::quickhull::{Failure, Simplex};
 use crate::incidence;
+use crate::order;
 use crate::polytope::{Facet, Polytope};
 
 /// A facet before its numbering is final.
@@ -191,8 +192,7 @@ fn check_distances<const N: usize>(
 }
 
 fn in_canonical_order<const N: usize>(groups: Vec<Group<N>>) -> Vec<Facet<N>> {
-    let mut order: Vec<usize> = (0..groups.len()).collect();
-    order.sort_unstable_by(|&a, &b| groups[a].vertices.cmp(&groups[b].vertices).then(a.cmp(&b)));
+    let order = order::of_lists(&groups.iter().map(|group| &group.vertices[..]).collect::<Vec<_>>());
     let mut number = vec![0; groups.len()];
     for (new, &old) in order.iter().enumerate() {
         number[old] = new as u32;

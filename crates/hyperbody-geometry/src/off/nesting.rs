@@ -5,12 +5,16 @@
 //! is, by what rounding leaves of any number. Whether a point does is told by the winding number, for whose
 //! ray boxes along it sort out all but a few simplices. Most pairs of pieces are told apart by their boxes, in one sweep.
 
-use hyperbody_math::Vector;
+use hyperbody_math::{Matrix, Vector};
 
 use crate::decompose::{Crossing, Wall, winding_number};
 use crate::error::GeometryErrorKind::{BadCount, BadMesh};
+use crate::order;
 use crate::tolerances::MAX_NESTING_WORK;
 use crate::{GeometryError, Result};
+
+/// Content of a piece, in parts of another one's, that is none.
+const CRUMB: f64 = 1e-12;
 
 /// What a pair of pieces costs at least, in looks at a box.
 const PAIR: usize = 100;
@@ -62,8 +66,13 @@ pub(super) fn hollows<const N: usize>(
             };
             let within = margins.into_iter().find_map(&mut all_within);
             spend(&mut work, 0, pieces.len())?;
-            let Some(within) = within else { return Err(doubtful(pieces[piece].facet, pieces[outer].facet)) };
-            hollow[piece] ^= within;
+            match within {
+                Some(within) => hollow[piece] ^= within,
+                // A crumb, as sections have, makes no difference either way.
+                None if content(&pieces[piece].simplices, points)
+                    <= CRUMB * content(&pieces[outer].simplices, points) => {}
+                None => return Err(doubtful(pieces[piece].facet, pieces[outer].facet)),
+            }
         }
     }
     Ok(hollow)
@@ -78,8 +87,7 @@ fn candidates<const N: usize>(
 ) -> Result<Vec<(usize, Vec<usize>)>> {
     let corners = |piece: &Piece<N>| Extent::of(piece.simplices.iter().flatten().map(|&v| points[v as usize]));
     let extents: Vec<Extent<N>> = pieces.iter().map(corners).collect();
-    let mut order: Vec<usize> = (0..pieces.len()).collect();
-    order.sort_by(|&a, &b| extents[a].low[0].total_cmp(&extents[b].low[0]));
+    let order = order::of_numbers(&extents.iter().map(|extent| extent.low[0]).collect::<Vec<f64>>());
     let mut inner: Vec<Vec<usize>> = vec![Vec::new(); pieces.len()];
     let (mut begun, mut next): (Vec<usize>, usize) = (Vec::new(), 0);
     for &piece in &order {
@@ -97,6 +105,13 @@ fn candidates<const N: usize>(
         }
     }
     Ok(inner.into_iter().enumerate().filter(|(_, inner)| !inner.is_empty()).collect())
+}
+
+/// What a piece bounds, in parts that are the same for all, without its sign.
+fn content<const N: usize>(simplices: &[[u32; N]], points: &[Vector<N>]) -> f64 {
+    let Some(origin) = simplices.first().map(|simplex| points[simplex[0] as usize]) else { return 0.0 };
+    let cone = |simplex: &[u32; N]| Matrix::from_columns(simplex.map(|v| points[v as usize] - origin)).determinant();
+    simplices.iter().map(cone).sum::<f64>().abs()
 }
 
 /// The vertices of a piece, and the middles of its simplices.
@@ -139,8 +154,10 @@ impl<const N: usize> Around<N> {
             let extent = Extent { low: tight.low - Vector::splat(margin), high: tight.high + Vector::splat(margin) };
             Side { extent, corners, wall: Wall::new(corners) }
         };
-        let mut sides: Vec<Side<N>> = simplices.iter().map(side).collect();
-        sides.sort_by(|a, b| a.extent.low[0].total_cmp(&b.extent.low[0]));
+        let lowest = |simplex: &[u32; N]| simplex.map(|v| frame[0].dot(points[v as usize]));
+        let starts = simplices.iter().map(|simplex| lowest(simplex).into_iter().fold(f64::INFINITY, f64::min));
+        let order = order::of_numbers(&starts.collect::<Vec<f64>>());
+        let sides: Vec<Side<N>> = order.iter().map(|&number| side(&simplices[number])).collect();
         let widest = sides.iter().map(|side| side.extent.high[0] - side.extent.low[0]).fold(0.0, f64::max);
         let corners = sides.iter().map(|side| side.corners).collect();
         Self { frame, sides, widest, corners }
