@@ -50,8 +50,6 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    pub(crate) const NONE: Self = Self { bounces: false, resists: false };
-
     pub(crate) fn of(a: &Material, b: &Material) -> Self {
         let (rolling, twisting) = a.combined_resistance(b);
         Self { bounces: a.combined_restitution(b) > 0.0, resists: rolling > 0.0 || twisting > 0.0 }

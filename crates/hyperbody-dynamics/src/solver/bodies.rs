@@ -102,11 +102,20 @@ impl<const N: usize> SolverBody<N> {
 
     /// A dynamic body under gravity and its own forces.
     pub(crate) fn dynamic(slot: u32, body: &Body<N>, gravity: Vector<N>, added_moment: f64) -> Self {
+        let inverse_sqrt = |moment: f64| 1.0 / (moment + added_moment).sqrt();
         let mut inverse_sqrt_moments = [0.0; MAX_PLANES];
-        for (k, (i, j)) in planes::all(N).enumerate() {
-            inverse_sqrt_moments[k] = 1.0 / (body.inertia.plane_moment(i, j) + added_moment).sqrt();
+        match body.inertia.isotropic {
+            Some(moment) => inverse_sqrt_moments[..Sizes::<N>::K].fill(inverse_sqrt(moment)),
+            None => {
+                for (k, (i, j)) in planes::all(N).enumerate() {
+                    inverse_sqrt_moments[k] = inverse_sqrt(body.inertia.plane_moment(i, j));
+                }
+            }
         }
         let frame = body.inertia.isotropic.is_none().then(|| body.rotation * body.inertia.body_from_principal);
+        let spins_up = body.torque != Bivector::ZERO;
+        let angular_acceleration =
+            if spins_up { body.inertia.velocity(&body.rotation, &body.torque) } else { Bivector::ZERO };
         Self {
             slot,
             inverse_sqrt_mass: body.inverse_mass.sqrt(),
@@ -114,12 +123,12 @@ impl<const N: usize> SolverBody<N> {
             inverse_sqrt_moments,
             added_moment,
             is_ball: body.is_ball,
-            spins_up: body.torque != Bivector::ZERO,
+            spins_up,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
             acceleration: gravity * body.gravity_scale + body.force * body.inverse_mass,
-            angular_acceleration: body.inertia.velocity(&body.rotation, &body.torque),
+            angular_acceleration,
             surface: body.surface_in_world(),
         }
     }

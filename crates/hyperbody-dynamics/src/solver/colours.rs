@@ -9,20 +9,29 @@ use hyperbody_collision::MAX_POINTS;
 
 use super::lanes::WIDTH;
 use crate::counting::Counting;
+use crate::pairs::Surface;
 
-/// A contact to be solved: slots and rows of its bodies.
+/// A contact to be solved: slots and rows of its bodies, and what choosing its place asks of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ActiveContact {
     pub(crate) pair: u32,
-    /// Rows of the solver's bodies; `movable` tells which may be written.
+    /// Rows of the solver's bodies.
     pub(crate) body_a: u32,
     pub(crate) body_b: u32,
+    /// Whether impulses move them.
+    pub(crate) moves: [bool; 2],
+    pub(crate) surface: Surface,
     pub(crate) points: u8,
     /// Whether it is one of balls, which have rows of their own.
     pub(crate) round: bool,
 }
 
 impl ActiveContact {
+    /// Rows of the solver's state: row 0, which stays zero, for a body that no impulse moves.
+    pub(crate) fn state_rows(&self) -> [u32; 2] {
+        [if self.moves[0] { self.body_a } else { 0 }, if self.moves[1] { self.body_b } else { 0 }]
+    }
+
     /// Contacts of one class are solved side by side: those with as many points, and those of balls.
     fn class(&self) -> usize {
         if self.round { 0 } else { usize::from(self.points) }
@@ -56,14 +65,14 @@ pub(crate) struct Colours {
 }
 
 impl Colours {
-    /// Groups the contacts. `movable(body)` tells whether impulses move a solver body.
-    pub(crate) fn assign(&mut self, contacts: &[ActiveContact], body_count: usize, movable: impl Fn(u32) -> bool) {
+    /// Groups the contacts.
+    pub(crate) fn assign(&mut self, contacts: &[ActiveContact], body_count: usize) {
         self.used.clear();
         self.used.resize(body_count, 0);
         self.colour_of.clear();
         self.colour_of.resize(contacts.len(), OVERFLOW);
-        let first_static = self.colour(contacts, &movable, true, 0);
-        self.colour(contacts, &movable, false, first_static);
+        let first_static = self.colour(contacts, true, 0);
+        self.colour(contacts, false, first_static);
         // Contacts with as many points stand together, most first, so that few lanes idle; ties keep their order.
         let colour_of = &self.colour_of;
         self.order.clear();
@@ -77,16 +86,10 @@ impl Colours {
     }
 
     /// Colours the contacts whose bodies both move (`both` true) or only one does; returns the colour after the last.
-    fn colour(
-        &mut self,
-        contacts: &[ActiveContact],
-        movable: &impl Fn(u32) -> bool,
-        both: bool,
-        first: usize,
-    ) -> usize {
+    fn colour(&mut self, contacts: &[ActiveContact], both: bool, first: usize) -> usize {
         let mut next = first;
         for (index, contact) in contacts.iter().enumerate() {
-            let (a, b) = (movable(contact.body_a), movable(contact.body_b));
+            let [a, b] = contact.moves;
             if (a && b) != both {
                 continue;
             }

@@ -36,7 +36,7 @@ use crate::BodyKind;
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::Joint;
-use crate::pairs::{Contact, Pair, Pairs, Surface};
+use crate::pairs::{Contact, Pairs};
 use crate::threads::Pool;
 use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
@@ -185,22 +185,27 @@ impl<const N: usize> Solver<N> {
                 continue;
             }
             let (Some(a), Some(b)) = (input.bodies.at(pair.body_a), input.bodies.at(pair.body_b)) else { continue };
-            if a.is_moving() || b.is_moving() {
+            let moves = [a.is_moving(), b.is_moving()];
+            if moves != [false; 2] {
                 #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
                 let slot = slot as u32;
-                let (body_a, body_b) = (a.solver_index, b.solver_index);
-                let round = pair.points == 1 && !pair.resists && [a, b].iter().all(|x| x.is_ball || !x.is_moving());
-                self.active.push(ActiveContact { pair: slot, body_a, body_b, points: pair.points, round });
+                self.active.push(ActiveContact {
+                    pair: slot,
+                    body_a: a.solver_index,
+                    body_b: b.solver_index,
+                    moves,
+                    surface: pair.surface(),
+                    points: pair.points,
+                    round: pair.points == 1 && !pair.resists && (a.is_ball || !moves[0]) && (b.is_ball || !moves[1]),
+                });
             }
         }
-        let bodies = &self.bodies;
-        self.colours.assign(&self.active, bodies.len(), |body| bodies[body as usize].inverse_sqrt_mass > 0.0);
+        self.colours.assign(&self.active, self.bodies.len());
     }
 
     fn make_rows(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
-        let surface = |pair: u32| input.pairs.get(pair).map_or(Surface::NONE, Pair::surface);
-        self.contacts.allocate(&self.colours.groups, &self.active, surface, &self.bodies);
+        self.contacts.allocate::<N>(&self.colours.groups, &self.active);
         let prepare = Prepare {
             soft: Softness::new(tuning.contact_hz, tuning.contact_damping_ratio, h),
             stiff: Softness::new(2.0 * tuning.contact_hz, tuning.contact_damping_ratio, h),
@@ -257,7 +262,7 @@ impl<const N: usize> Solver<N> {
     fn run_substeps(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
         let processor = self.processor;
-        self.turning.clear(self.bodies.len());
+        self.turning.clear(&self.bodies, input.dt);
         self.pressed.clear::<N>(self.bodies.len());
         self.refresh_joints(&Moment::new(0, 0, h));
         for substep in 0..input.substeps {

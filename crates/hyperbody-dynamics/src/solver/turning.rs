@@ -29,16 +29,44 @@ pub(crate) struct Turning<const N: usize> {
     turns: Vec<Turn<N>>,
     /// By row of the solver's bodies: place in `turns`, or [`NONE`].
     place: Vec<u32>,
+    bounds: Vec<Bounds>,
+}
+
+/// From which a body is seen not to have turned far, without looking at it closer.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    /// Turn of the base motion up to the end of the step, rad.
+    base: Real,
+    /// Turn for each unit of scaled displacement, rad.
+    largest_scale: Real,
 }
 
 const NONE: u32 = u32::MAX;
 
+impl Bounds {
+    /// Whether a body of this displacement has turned by no more than [`FAR`], half by its base motion and half by impulses;
+    /// false where that cannot be told.
+    #[inline]
+    fn hold(&self, scaled: &[Real]) -> bool {
+        const HALF: Real = 0.49 * FAR as Real;
+        let by_impulses = scaled.iter().map(|value| value * value).sum::<Real>().sqrt() * self.largest_scale;
+        by_impulses <= HALF && self.base <= HALF
+    }
+}
+
 impl<const N: usize> Turning<N> {
-    /// Forgets the last step.
-    pub(crate) fn clear(&mut self, body_count: usize) {
+    /// Forgets the last step, and looks who may turn far in the next one of `dt` seconds.
+    pub(crate) fn clear(&mut self, bodies: &[SolverBody<N>], dt: f64) {
         self.turns.clear();
         self.place.clear();
-        self.place.resize(body_count, NONE);
+        self.place.resize(bodies.len(), NONE);
+        self.bounds.clear();
+        self.bounds.extend(bodies.iter().map(|body| {
+            let spin_up = if body.spins_up { body.angular_acceleration.norm() } else { 0.0 };
+            let base = (body.angular_velocity.norm() + dt * spin_up) * dt;
+            let largest_scale = body.inverse_sqrt_moments.iter().copied().fold(0.0, f64::max);
+            Bounds { base: base as Real, largest_scale: largest_scale as Real }
+        }));
     }
 
     /// Looks who has turned far by now, and mends the gaps of their contacts.
@@ -78,9 +106,13 @@ impl<const N: usize> Turning<N> {
 
     fn find(&mut self, bodies: &[SolverBody<N>], state: &[Real], times: &PassTimes) {
         let (moved, moved_sq) = (f64::from(times.moved), f64::from(times.moved_sq));
-        for (row, body) in bodies.iter().enumerate().skip(1).filter(|(_, body)| !body.is_ball) {
-            let at = row * Sizes::<N>::STATE + Sizes::<N>::VELOCITY + N;
-            let scaled = &state[at..at + Sizes::<N>::K];
+        let rows = state.chunks_exact(Sizes::<N>::STATE).zip(bodies).zip(&self.bounds).enumerate();
+        for (row, ((state, body), bounds)) in rows.skip(1) {
+            let scaled = &state[Sizes::<N>::VELOCITY + N..2 * Sizes::<N>::VELOCITY];
+            let known = self.place[row];
+            if (known == NONE && bounds.hold(scaled)) || body.is_ball {
+                continue;
+            }
             let mut by_impulses: f64 = 0.0;
             for (k, &value) in scaled.iter().enumerate() {
                 let turn = f64::from(value) * body.inverse_sqrt_moments[k];
@@ -90,7 +122,6 @@ impl<const N: usize> Turning<N> {
             if body.spins_up {
                 base += body.angular_acceleration * moved_sq;
             }
-            let known = self.place[row];
             if known == NONE && by_impulses.sqrt() + base.norm() <= FAR {
                 continue;
             }

@@ -20,10 +20,8 @@ mod round;
 mod solve;
 mod sweep;
 
-use super::bodies::SolverBody;
 use super::colours::{ActiveContact, Group};
 use super::lanes::{Lanes, WIDTH};
-use crate::pairs::Surface;
 pub(crate) use arms::Arms;
 pub(crate) use excess::excess;
 pub(crate) use layout::Layout;
@@ -66,13 +64,7 @@ pub(crate) struct ContactRows {
 
 impl ContactRows {
     /// Makes room for the groups; what the rows hold is left over from the last step.
-    pub(crate) fn allocate<const N: usize>(
-        &mut self,
-        groups: &[Group],
-        contacts: &[ActiveContact],
-        surface: impl Fn(u32) -> Surface,
-        bodies: &[SolverBody<N>],
-    ) {
+    pub(crate) fn allocate<const N: usize>(&mut self, groups: &[Group], contacts: &[ActiveContact]) {
         self.blocks.clear();
         let mut start = 0;
         for group in groups {
@@ -93,12 +85,10 @@ impl ContactRows {
                 }
                 let contact = &contacts[index as usize];
                 block.points = block.points.max(usize::from(contact.points));
-                let surface = surface(contact.pair);
-                block.bounces |= surface.bounces;
-                block.resists |= surface.resists;
+                block.bounces |= contact.surface.bounces;
+                block.resists |= contact.surface.resists;
                 block.round |= contact.round;
-                block.bodies_a[lane] = writable(bodies, contact.body_a);
-                block.bodies_b[lane] = writable(bodies, contact.body_b);
+                [block.bodies_a[lane], block.bodies_b[lane]] = contact.state_rows();
             }
             if block.points > 1 || block.resists {
                 block.twists = Layout::<N>::TWISTS;
@@ -108,9 +98,4 @@ impl ContactRows {
         }
         self.rows.resize(start, Lanes::ZERO);
     }
-}
-
-/// The row of a body in the solver's state: row 0, which stays zero, for those that no impulse moves.
-fn writable<const N: usize>(bodies: &[SolverBody<N>], index: u32) -> u32 {
-    if bodies[index as usize].inverse_sqrt_mass > 0.0 { index } else { 0 }
 }
