@@ -203,6 +203,15 @@ impl NormalProblem {
     ) -> Wide<M> {
         let machine = slack.machine();
         let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
+        // Where all points press, as at rest, nothing is left that could approach.
+        let mut doubtful = zero;
+        for i in 0..count {
+            let pulls = (-self.impulse[i].on(machine)).select_positive(one, zero);
+            doubtful += self.active[i].on(machine).select_positive(pulls, self.allowed[i].on(machine));
+        }
+        if (Wide::splat(machine, 0.5) - doubtful).all_positive() {
+            return one;
+        }
         for i in 0..count {
             // The same proximal term as in the active rows, so that one problem is solved.
             let proximal = self.softness[i].on(machine).select_positive(zero, stiffener * self.held[i]);
