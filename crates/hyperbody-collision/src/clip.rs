@@ -102,7 +102,7 @@ impl<const N: usize, const W: usize> Clipper<N, W> {
                 shared[word] = near.tight[word] & far.tight[word];
             }
             let trust_count = self.simple || (self.dimension <= 3 && before <= FEW_VERTICES);
-            let edge = count(&shared) + 1 >= self.dimension
+            let edge = has_at_least(&shared, self.dimension - 1)
                 && (trust_count || !self.shared_by_a_third(&shared, [inside, outside], before));
             if edge {
                 let t = near_distance / (near_distance - far_distance);
@@ -187,6 +187,23 @@ const SAME_POINT: f64 = 100.0;
 #[inline]
 fn count<const W: usize>(words: &[u64; W]) -> usize {
     words.iter().map(|word| word.count_ones() as usize).sum()
+}
+
+/// Whether at least so many bits are set: what counting them tells too, but without the instruction that counts bits, which
+/// not every processor has, that takes many others.
+#[inline]
+fn has_at_least<const W: usize>(words: &[u64; W], least: usize) -> bool {
+    let mut words = *words;
+    for _ in 1..least {
+        // The lowest bit goes.
+        let mut below = true;
+        for word in &mut words {
+            let empty = *word == 0;
+            *word = if below { *word & word.wrapping_sub(1) } else { *word };
+            below &= empty;
+        }
+    }
+    least == 0 || words.iter().any(|&word| word != 0)
 }
 
 #[inline]

@@ -33,7 +33,7 @@ pub(crate) fn collide<const N: usize>(
     let mut gather = |point: Vector<N>, id: u32| {
         let separation = height - point.dot(toward_plane);
         if separation <= margin {
-            reducer.candidates.push(Candidate { position: point, separation, id, class: None });
+            reducer.candidates.push(Candidate { position: point, separation, id, class: None, known: false });
         }
     };
     match &shape.core {

@@ -246,6 +246,7 @@ impl<const N: usize> Plan<'_, N> {
                     separation: gap - rounding,
                     id: clipper.feature_id(index, incident_parity).wrapping_add(both_facets),
                     class: None,
+                    known: false,
                 });
             }
         }

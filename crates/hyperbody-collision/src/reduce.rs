@@ -18,6 +18,8 @@ pub(crate) struct Candidate<const N: usize> {
     pub(crate) id: u32,
     /// Whether it is an odd or an even corner of a patch like a box; `None` of others.
     pub(crate) class: Option<bool>,
+    /// Whether it was chosen in the previous step; found by the reduction.
+    pub(crate) known: bool,
 }
 
 /// Relative difference of squared distances that rounding makes.
@@ -49,8 +51,11 @@ impl<const N: usize> Reducer<N> {
             self.candidates.truncate(limit);
             return;
         }
-        self.keep_every_second(limit, previous, size);
-        self.choose_first(previous, size);
+        for candidate in &mut self.candidates {
+            candidate.known = previous.contains(&candidate.id);
+        }
+        self.keep_every_second(limit, size);
+        self.choose_first(size);
         let mut chosen = 1;
         // Each turn chooses one point.
         while chosen < limit.min(self.candidates.len()) {
@@ -66,14 +71,14 @@ impl<const N: usize> Reducer<N> {
                 let nearest_sq = self.nearest_sq[index];
                 let distance_sq = if spanning { self.residuals[index].norm_sq() } else { nearest_sq };
                 if distance_sq > tiny_sq {
-                    best = self.better(best, index, distance_sq, previous);
+                    best = self.better(best, index, distance_sq);
                 }
             }
             match best {
                 Some((index, _)) => self.choose(index, chosen),
                 // The hull is exhausted: go on by distance to the points, or end.
                 None if spanning && self.spread_remains(chosen, tiny_sq) => {
-                    let index = self.farthest(chosen, previous);
+                    let index = self.farthest(chosen);
                     self.choose(index, chosen);
                 }
                 None => break,
@@ -85,7 +90,7 @@ impl<const N: usize> Reducer<N> {
 
     /// Keeps one class of corners if it has `limit` of them and one as deep as any: every second corner of a cube spans it
     /// and each of its faces as evenly as all of them do. The class of the previous step stays if it can.
-    fn keep_every_second(&mut self, limit: usize, previous: &[u32], size: f64) {
+    fn keep_every_second(&mut self, limit: usize, size: f64) {
         if self.candidates.len() < 2 * limit {
             return;
         }
@@ -95,7 +100,7 @@ impl<const N: usize> Reducer<N> {
             let deep = of_class(*class).any(|c| c.separation <= least + limits::EQUAL_DEPTH * size);
             deep && of_class(*class).count() == limit
         };
-        let known = of_class(true).any(|candidate| previous.contains(&candidate.id));
+        let known = of_class(true).any(|candidate| candidate.known);
         if let Some(kept) = [known, !known].into_iter().find(suits) {
             self.candidates.retain(|candidate| candidate.class == Some(kept));
         }
@@ -125,24 +130,18 @@ impl<const N: usize> Reducer<N> {
         self.nearest_sq[chosen..].iter().any(|&distance_sq| distance_sq > tiny_sq)
     }
 
-    fn farthest(&self, chosen: usize, previous: &[u32]) -> usize {
+    fn farthest(&self, chosen: usize) -> usize {
         let mut best = None;
         for index in chosen..self.candidates.len() {
-            best = self.better(best, index, self.nearest_sq[index], previous);
+            best = self.better(best, index, self.nearest_sq[index]);
         }
         best.map_or(chosen, |(index, _)| index)
     }
 
     /// The better of the best so far and a candidate, with their scores.
-    fn better(
-        &self,
-        best: Option<(usize, f64)>,
-        index: usize,
-        distance_sq: f64,
-        previous: &[u32],
-    ) -> Option<(usize, f64)> {
-        let id = self.candidates[index].id;
-        let score = if previous.contains(&id) { distance_sq * limits::COHERENCE_GAIN } else { distance_sq };
+    fn better(&self, best: Option<(usize, f64)>, index: usize, distance_sq: f64) -> Option<(usize, f64)> {
+        let Candidate { id, known, .. } = self.candidates[index];
+        let score = if known { distance_sq * limits::COHERENCE_GAIN } else { distance_sq };
         // Opposite corners of boxes are equally far but for rounding.
         let Some((kept, most)) = best else { return Some((index, score)) };
         let equal = (score - most).abs() <= EQUAL_DISTANCE * most;
@@ -151,7 +150,7 @@ impl<const N: usize> Reducer<N> {
     }
 
     /// Chooses the first point: of the deepest, the one farthest from the middle.
-    fn choose_first(&mut self, previous: &[u32], size: f64) {
+    fn choose_first(&mut self, size: f64) {
         let least = self.candidates.iter().map(|c| c.separation).fold(f64::INFINITY, f64::min);
         let mut middle = Vector::ZERO;
         for candidate in &self.candidates {
@@ -163,7 +162,7 @@ impl<const N: usize> Reducer<N> {
         let mut best = None;
         for (index, candidate) in self.candidates.iter().enumerate() {
             if candidate.separation <= least + limits::EQUAL_DEPTH * size {
-                best = self.better(best, index, (candidate.position - middle).norm_sq(), previous);
+                best = self.better(best, index, (candidate.position - middle).norm_sq());
             }
         }
         self.candidates.swap(0, best.map_or(0, |(index, _)| index));
