@@ -8,6 +8,7 @@ use hyperbody_geometry::shape::Piece;
 use hyperbody_math::Vector;
 
 use crate::World;
+use crate::balls::Plain;
 use crate::narrow_phase::moved;
 use crate::near::Near;
 use crate::pairs::{Pair, PairRole, Surface, in_order};
@@ -29,15 +30,17 @@ impl<const N: usize> World<N> {
 
     fn refit_boxes(&mut self) {
         self.restart_ways();
-        for (collider, motion) in self.colliders.iter_mut().zip(&mut self.motions) {
+        self.plain.resize(self.colliders.len(), Plain::Other);
+        for ((collider, motion), plain) in self.colliders.iter_mut().zip(&mut self.motions).zip(&mut self.plain) {
             let Some(collider) = collider else { continue };
             let Some(body) = self.bodies.at(collider.body) else { continue };
             motion.awake = body.is_awake();
             motion.speed = if body.quarantined { f64::INFINITY } else { 0.0 };
             if !(motion.awake || collider.moved) {
+                motion.plain = plain.take(collider, body);
                 continue;
             }
-            let spin = if body.radius > 0.0 { body.angular_velocity.norm() * body.radius } else { 0.0 };
+            let spin = body.surface_speed_by_spin();
             if motion.awake {
                 motion.speed = body.velocity.norm() + spin;
             }
@@ -51,6 +54,7 @@ impl<const N: usize> World<N> {
                 Piece::HalfSpace { .. } => 0.0,
             };
             collider.world_from_collider = pose;
+            motion.plain = plain.take(collider, body);
             let (Piece::Convex(convex), Some(proxy)) = (&collider.piece, collider.proxy) else { continue };
             let tight = convex.aabb(&collider.world_from_collider);
             // All that the body can reach within the step; twice as far when the box is made anew.

@@ -206,12 +206,12 @@ impl<const N: usize> World<N> {
         let mut found = std::mem::take(&mut self.events.found);
         found.clear();
         self.events.noticed.clear();
-        for pair in self.pairs.iter() {
-            if pair.overlaps {
-                self.events.noticed.extend(self.noticed_by(pair.body_a, pair.body_b));
-                self.events.noticed.extend(self.noticed_by(pair.body_b, pair.body_a));
-            }
-            let Some(contact) = pair.contact.as_deref().filter(|_| pair.points > 0) else { continue };
+        for pair in self.pairs.overlaps() {
+            self.events.noticed.extend(self.noticed_by(pair.body_a, pair.body_b));
+            self.events.noticed.extend(self.noticed_by(pair.body_b, pair.body_a));
+        }
+        for (_, pair) in self.pairs.contacts() {
+            let Some(contact) = pair.contact.as_deref() else { continue };
             let touches = |touch: &Touch<N>| touch.step_impulse > 0.0 || touch.point.separation <= 0.0;
             let touching = contact.touches.iter().any(touches);
             let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { continue };
@@ -221,7 +221,7 @@ impl<const N: usize> World<N> {
             let handles = (self.bodies.handle_at(pair.body_a), self.bodies.handle_at(pair.body_b));
             let (Some(handle_a), Some(handle_b)) = handles else { continue };
             let (mut impulse, mut point) = (0.0, Vector::ZERO);
-            for touch in &contact.touches {
+            for touch in contact.touches.iter() {
                 let part = f64::from(touch.step_impulse);
                 impulse += part;
                 point += touch.point.position * part;

@@ -58,7 +58,7 @@ impl<const N: usize> World<N> {
                 hasher.word(u64::from(pair.overlaps) | (pair.passage as u64) << 1);
             }
             let Some(contact) = &pair.contact else { continue };
-            for touch in &contact.touches {
+            for touch in contact.touches.iter() {
                 hasher.number(touch.point.separation);
                 hasher.word(u64::from(touch.normal_impulse.to_bits()));
             }

@@ -57,6 +57,7 @@ mod steering;
 mod step;
 mod threads;
 pub mod timings;
+mod touches;
 pub mod tuning;
 mod vetting;
 mod waking;

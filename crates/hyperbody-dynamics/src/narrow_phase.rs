@@ -7,9 +7,10 @@ use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 use rayon::prelude::*;
 
 use crate::ahead::{IS_HEARD, fetch};
+use crate::balls::Plain;
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::{Contact, Pair, PairRole, Touch, fetch_contacts};
+use crate::pairs::{Contact, Pair, PairRole, Touch, Touches, fetch_contacts};
 use crate::rules::Hook;
 use crate::seams::{SLIDES, is_suspect};
 use crate::wandering::share_of_b;
@@ -51,44 +52,56 @@ impl<const N: usize> World<N> {
             colliders: &self.colliders,
             bodies: &self.bodies,
             motions: &self.motions,
+            plain: &self.plain,
             margin: self.tuning.speculative_distance,
             recycle_distance: self.tuning.recycle_distance,
             dt: self.dt,
             hook: self.hook.as_ref(),
         };
-        let slots = self.pairs.slots_mut();
+        let slots = self.pairs.slots.as_mut_slice();
         match &self.pool {
             None => {
-                if let Some(scratch) = self.scratch.first_mut() {
-                    update.pairs(slots, scratch);
+                if let ([scratch, ..], [found, ..]) = (self.scratch.as_mut_slice(), self.found.as_mut_slice()) {
+                    update.pairs(slots, 0, scratch, found);
                 }
             }
             Some(pool) => {
                 // One stretch of slots and one scratch a thread.
                 let chunk = slots.len().div_ceil(self.scratch.len()).max(1);
                 pool.install(|| {
-                    slots.par_chunks_mut(chunk).zip(self.scratch.par_iter_mut()).for_each(|(chunk, scratch)| {
-                        update.pairs(chunk, scratch);
-                    });
+                    let memory = self.scratch.par_iter_mut().zip(&mut self.found);
+                    slots.par_chunks_mut(chunk).zip(memory).enumerate().for_each(
+                        |(index, (slots, (scratch, found)))| {
+                            update.pairs(slots, index * chunk, scratch, found);
+                        },
+                    );
                 });
             }
         }
+        self.gather_found();
         self.measure_contacts();
         if self.drop_ghosts() {
             self.measure_contacts();
         }
     }
 
+    /// Puts what the threads found together, in the order of slots.
+    fn gather_found(&mut self) {
+        let (pairs, suspects) = (&mut self.pairs, &mut self.seams.suspects);
+        pairs.contacts.clear();
+        pairs.overlaps.clear();
+        suspects.clear();
+        for found in &mut self.found {
+            pairs.contacts.append(&mut found.contacts);
+            pairs.overlaps.append(&mut found.overlaps);
+            suspects.append(&mut found.suspects);
+        }
+    }
+
     fn measure_contacts(&mut self) {
         self.max_penetration = 0.0;
         self.contact_count = 0;
-        self.seams.suspects.clear();
-        for (slot, pair) in self.pairs.slots().iter().enumerate() {
-            let Some(pair) = pair else { continue };
-            if pair.suspect {
-                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-                self.seams.suspects.push(slot as u32);
-            }
+        for (_, pair) in self.pairs.contacts() {
             self.contact_count += usize::from(pair.touching);
             self.max_penetration = self.max_penetration.max(pair.deepest);
         }
@@ -128,6 +141,33 @@ impl<const N: usize> World<N> {
     }
 }
 
+/// What updating pairs finds, as slots of pairs, ascending.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    /// Pairs with points.
+    contacts: Vec<u32>,
+    /// Those of them that may hold ghosts.
+    suspects: Vec<u32>,
+    /// Pairs of sensors with what they notice.
+    overlaps: Vec<u32>,
+}
+
+impl Found {
+    fn note<const N: usize>(&mut self, slot: usize, pair: &Pair<N>) {
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+        let slot = slot as u32;
+        if pair.points > 0 {
+            self.contacts.push(slot);
+        }
+        if pair.suspect {
+            self.suspects.push(slot);
+        }
+        if pair.overlaps {
+            self.overlaps.push(slot);
+        }
+    }
+}
+
 /// What updating a pair reads.
 #[derive(Clone, Copy)]
 pub(crate) struct Update<'a, const N: usize> {
@@ -135,6 +175,8 @@ pub(crate) struct Update<'a, const N: usize> {
     pub(crate) bodies: &'a Arena<Body<N>, BodyHandle>,
     /// By slot of the collider.
     motions: &'a [Motion],
+    /// By slot of the collider.
+    pub(crate) plain: &'a [Plain<N>],
     /// m.
     pub(crate) margin: f64,
     /// m.
@@ -145,13 +187,14 @@ pub(crate) struct Update<'a, const N: usize> {
 }
 
 impl<const N: usize> Update<'_, N> {
-    /// Brings the pairs of some slots up to date.
-    fn pairs(&self, slots: &mut [Option<Pair<N>>], scratch: &mut Scratch<N>) {
+    /// Brings the pairs of some slots up to date, the first of which is `first`.
+    fn pairs(&self, slots: &mut [Option<Pair<N>>], first: usize, scratch: &mut Scratch<N>, found: &mut Found) {
         for slot in 0..slots.len() {
             fetch_contacts(slots, slot);
             self.fetch_search(slots, slot + 8);
             if let Some(pair) = &mut slots[slot] {
                 self.pair(pair, scratch);
+                found.note(first + slot, pair);
             }
         }
     }
@@ -187,7 +230,9 @@ impl<const N: usize> Update<'_, N> {
         // What was left out of the kept manifold was farther apart than the margin, and stays out of reach.
         let calm = self.dt * (a.speed + b.speed) + self.recycle_distance <= self.margin;
         if !(calm && a.way + b.way <= pair.holds_until) {
-            self.look_closer(pair, a.way + b.way, scratch);
+            if !(a.plain && b.plain && self.plain(pair, a.way + b.way)) {
+                self.look_closer(pair, a.way + b.way, scratch);
+            }
         } else if pair.points > 0 {
             self.carry_along(pair);
         }
@@ -216,9 +261,6 @@ impl<const N: usize> Update<'_, N> {
     fn look_closer(&self, pair: &mut Pair<N>, way: f64, scratch: &mut Scratch<N>) {
         let Some([(a, body_a), (b, body_b)]) = self.sides(pair) else { return };
         let closing = self.closing_distance(body_a, body_b);
-        if self.balls(pair, (a, body_a), (b, body_b), way, closing) {
-            return;
-        }
         let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
         if let Some(kept) = &pair.search.a_from_b
             && closing + self.recycle_distance <= self.margin
@@ -277,7 +319,7 @@ impl<const N: usize> Update<'_, N> {
         let (world_from_a, world_from_b) = (&a.world_from_collider, &b.world_from_collider);
         let normal = world_from_a.rotation.rotate(contact.normal_in_a);
         contact.normal = normal;
-        for Touch { point, anchors, .. } in &mut contact.touches {
+        for (Touch { point, .. }, anchors) in contact.touches.iter_mut().zip(&contact.anchors) {
             let on_a = world_from_a.transform_point(anchors.0);
             let on_b = world_from_b.transform_point(anchors.1);
             point.position = (on_a + on_b) * 0.5;
@@ -290,10 +332,7 @@ impl<const N: usize> Update<'_, N> {
 impl<const N: usize> Update<'_, N> {
     /// How far any two points of the bodies can come closer within the step, m; at most.
     fn closing_distance(&self, a: &Body<N>, b: &Body<N>) -> f64 {
-        let spin = |body: &Body<N>| {
-            if body.radius > 0.0 { body.angular_velocity.norm() * body.radius } else { 0.0 }
-        };
-        self.dt * ((b.velocity - a.velocity).norm() + spin(a) + spin(b))
+        self.dt * ((b.velocity - a.velocity).norm() + a.surface_speed_by_spin() + b.surface_speed_by_spin())
     }
 
     /// Clears a manifold of which no point is near now or reached within the step at the present velocities: a fast body is
@@ -405,7 +444,7 @@ pub(crate) fn meet_first<const N: usize>(
     most_points: usize,
 ) -> Contact<N> {
     Contact {
-        touches: Vec::with_capacity(most_points),
+        touches: Touches::with_room(most_points),
         normal: Vector::ZERO,
         friction: body_a.material.combined_friction(&body_b.material),
         restitution: body_a.material.combined_restitution(&body_b.material),
@@ -415,6 +454,7 @@ pub(crate) fn meet_first<const N: usize>(
         friction_impulse: Vector::ZERO,
         twist_impulse: Bivector::ZERO,
         normal_in_a: Vector::ZERO,
+        anchors: Vec::with_capacity(most_points),
         radii: (a.rounding(), b.rounding()),
     }
 }
@@ -422,13 +462,12 @@ pub(crate) fn meet_first<const N: usize>(
 /// Notes the manifold in the frames of its colliders.
 fn record<const N: usize>(contact: &mut Contact<N>, world_from_a: &Pose<N>, world_from_b: &Pose<N>) {
     let normal = contact.normal;
-    for Touch { point, anchors, .. } in &mut contact.touches {
+    contact.anchors.clear();
+    contact.anchors.extend(contact.touches.iter().map(|Touch { point, .. }| {
         let half_gap = normal * (0.5 * point.separation);
-        *anchors = (
-            world_from_a.inverse_transform_point(point.position - half_gap),
-            world_from_b.inverse_transform_point(point.position + half_gap),
-        );
-    }
+        let on_a = world_from_a.inverse_transform_point(point.position - half_gap);
+        (on_a, world_from_b.inverse_transform_point(point.position + half_gap))
+    }));
     contact.normal_in_a = world_from_a.rotation.inverse_rotate(normal);
 }
 
@@ -467,7 +506,6 @@ fn carry_over<const N: usize>(contact: &mut Contact<N>, new: &Manifold<N>, reach
         contact.twist_impulse = Bivector::ZERO;
     }
     contact.normal = new.normal;
-    contact.touches.clear();
     let touches = new.points().iter().zip(impulses);
-    contact.touches.extend(touches.map(|(point, normal_impulse)| Touch { normal_impulse, ..Touch::new(*point) }));
+    contact.touches.replace(touches.map(|(point, normal_impulse)| Touch { normal_impulse, ..Touch::new(*point) }));
 }

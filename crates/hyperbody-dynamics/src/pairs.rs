@@ -5,12 +5,13 @@
 
 use std::collections::BTreeMap;
 
-use hyperbody_collision::{ContactPoint, PairCache};
+use hyperbody_collision::PairCache;
 use hyperbody_math::{Bivector, Pose, Vector};
 
 use crate::Material;
 use crate::ahead::{IS_HEARD, fetch, fetch_all};
 use crate::body::Body;
+pub(crate) use crate::touches::{Anchors, Touch, Touches};
 
 /// What pairs of numbers are sorted by: the first, then the second. One function for worlds of all dimensions, so that sorting
 /// by it is compiled once.
@@ -106,8 +107,8 @@ impl<const N: usize> Pair<N> {
     /// What a copy of it takes beside itself, bytes.
     pub(crate) fn memory(&self) -> usize {
         let search = size_of::<Search<N>>();
-        let contact = |contact: &Contact<N>| size_of_val(contact) + size_of_val(contact.touches.as_slice());
-        search + self.contact.as_deref().map_or(0, contact)
+        let lists = |contact: &Contact<N>| contact.touches.memory() + size_of_val(contact.anchors.as_slice());
+        search + self.contact.as_deref().map_or(0, |contact| size_of_val(contact) + lists(contact))
     }
 }
 
@@ -125,22 +126,23 @@ pub(crate) struct Search<const N: usize> {
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub(crate) struct Contact<const N: usize> {
-    /// Where they touch. Has room for as many as there can be, so that no step asks for memory, and for no more, for large piles
-    /// wait for memory above all.
-    pub(crate) touches: Vec<Touch<N>>,
+    /// Where they touch.
+    pub(crate) touches: Touches<N>,
     /// Unit vector from a to b in the world; zero while there are no points.
     pub(crate) normal: Vector<N>,
     /// Of both surfaces, by their rules.
     pub(crate) friction: f64,
     pub(crate) restitution: f64,
+    /// Which part of what moving on adds to the angular momentum b takes back; see `wandering`.
+    pub(crate) share_of_b: f64,
     /// Warm start: friction impulse on b over one substep, world frame, N·s.
     pub(crate) friction_impulse: Vector<N>,
     /// How b's surface runs against a's, beside what the bodies say, world axes, m/s: asked for by the contact hook.
     pub(crate) surface: Vector<N>,
-    /// Which part of what moving on adds to the angular momentum b takes back; see `wandering`.
-    pub(crate) share_of_b: f64,
     /// The normal in the frame of a, which carries it along.
     pub(crate) normal_in_a: Vector<N>,
+    /// One a touch but for those of balls: from them the points are made anew while the two hardly move.
+    pub(crate) anchors: Vec<Anchors<N>>,
     /// Warm start: twisting friction impulse on b over one substep, and that of resistance to rolling, world frame, N·m·s.
     pub(crate) twist_impulse: Bivector<N>,
     /// Resistance to rolling and to twisting, m.
@@ -149,28 +151,11 @@ pub(crate) struct Contact<const N: usize> {
     pub(crate) radii: (f64, f64),
 }
 
-/// One point of a contact.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Touch<const N: usize> {
-    pub(crate) point: ContactPoint<N>,
-    /// Warm start: normal impulse over one substep, N·s.
-    pub(crate) normal_impulse: f32,
-    /// Normal impulse over the last step, N·s.
-    pub(crate) step_impulse: f32,
-    /// The two surfaces' points, each in its collider's frame: from them the point is made anew while the two hardly move.
-    pub(crate) anchors: (Vector<N>, Vector<N>),
-}
-
-impl<const N: usize> Touch<N> {
-    pub(crate) fn new(point: ContactPoint<N>) -> Self {
-        Self { point, normal_impulse: 0.0, step_impulse: 0.0, anchors: (Vector::ZERO, Vector::ZERO) }
-    }
-}
-
 impl<const N: usize> Contact<N> {
     /// Forgets points, normal and the impulses of friction.
     pub(crate) fn clear(&mut self) {
         self.touches.clear();
+        self.anchors.clear();
         self.normal = Vector::ZERO;
         self.friction_impulse = Vector::ZERO;
         self.twist_impulse = Bivector::ZERO;
@@ -247,12 +232,20 @@ pub(crate) fn fetch_contacts<const N: usize>(slots: &[Option<Pair<N>>], slot: us
     if !IS_HEARD {
         return;
     }
-    let contact = |slot: usize| slots.get(slot)?.as_ref().filter(|pair| pair.points > 0)?.contact.as_deref();
-    if let Some(contact) = contact(slot + 16) {
-        fetch(contact, std::mem::offset_of!(Contact<N>, twist_impulse));
+    let touching = |slot: usize| slots.get(slot)?.as_ref().filter(|pair| pair.points > 0);
+    if let Some(pair) = touching(slot + 16)
+        && let Some(contact) = pair.contact.as_deref()
+    {
+        let unread_of_balls = std::mem::offset_of!(Contact<N>, friction);
+        let unread = std::mem::offset_of!(Contact<N>, twist_impulse);
+        fetch(contact, if pair.round { unread_of_balls } else { unread });
     }
-    if let Some(contact) = contact(slot + 8) {
-        fetch_all(&contact.touches);
+    if let Some(pair) = touching(slot + 8).filter(|pair| !pair.round)
+        && let Some(contact) = pair.contact.as_deref()
+        && let Touches::List(touches) = &contact.touches
+    {
+        fetch_all(touches);
+        fetch_all(&contact.anchors);
     }
 }
 
@@ -262,11 +255,21 @@ pub(crate) struct Pairs<const N: usize> {
     pub(crate) slots: Vec<Option<Pair<N>>>,
     pub(crate) free: Vec<u32>,
     pub(crate) slot_of: BTreeMap<(u32, u32), u32>,
+    /// Slots of the pairs with points, and of those of sensors that overlap, ascending: found by the narrow phase, for the stages
+    /// after it.
+    pub(crate) contacts: Vec<u32>,
+    pub(crate) overlaps: Vec<u32>,
 }
 
 impl<const N: usize> Pairs<N> {
     pub(crate) const fn new() -> Self {
-        Self { slots: Vec::new(), free: Vec::new(), slot_of: BTreeMap::new() }
+        Self {
+            slots: Vec::new(),
+            free: Vec::new(),
+            slot_of: BTreeMap::new(),
+            contacts: Vec::new(),
+            overlaps: Vec::new(),
+        }
     }
 
     pub(crate) fn contains(&self, collider_a: u32, collider_b: u32) -> bool {
@@ -303,6 +306,17 @@ impl<const N: usize> Pairs<N> {
         self.slots.iter().flatten()
     }
 
+    /// Those with points, with their slots, since the narrow phase of this step.
+    pub(crate) fn contacts(&self) -> impl Iterator<Item = (u32, &Pair<N>)> {
+        let taken = self.contacts.iter().filter_map(|&slot| Some((slot, self.get(slot)?)));
+        taken.filter(|(_, pair)| pair.points > 0)
+    }
+
+    /// Those of sensors that overlap.
+    pub(crate) fn overlaps(&self) -> impl Iterator<Item = &Pair<N>> {
+        self.overlaps.iter().filter_map(|&slot| self.get(slot)).filter(|pair| pair.overlaps)
+    }
+
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Pair<N>> {
         self.slots.iter_mut().flatten()
     }
@@ -335,7 +349,7 @@ mod tests {
     use crate::solver::bodies::Sizes;
     use crate::world::Collider;
 
-    fn sizes<const N: usize>() -> [usize; 7] {
+    fn sizes<const N: usize>() -> [usize; 8] {
         let solver = size_of::<crate::solver::bodies::SolverBody<N>>() + Sizes::<N>::STATE * size_of::<f32>();
         [
             size_of::<Body<N>>(),
@@ -345,19 +359,21 @@ mod tests {
             size_of::<Search<N>>(),
             size_of::<Contact<N>>(),
             size_of::<Touch<N>>(),
+            size_of::<Anchors<N>>(),
         ]
     }
 
-    /// What docs/performance.md states, in bytes: body, collider, body in the solver, pair, search, contact, a point of it.
+    /// What docs/performance.md states, in bytes: body, collider, body in the solver, pair, search, contact, a point of it and
+    /// its anchors.
     #[test]
     #[cfg(target_pointer_width = "64")]
     fn bodies_and_contacts_take_the_stated_memory() {
         let stated = [
-            [672, 208, 344, 64, 224, 176, 72],
-            [1080, 336, 528, 64, 280, 248, 96],
-            [1616, 496, 760, 64, 352, 336, 120],
-            [2280, 688, 1040, 64, 440, 440, 144],
-            [3072, 912, 1400, 64, 544, 560, 168],
+            [672, 208, 344, 64, 224, 224, 40, 32],
+            [1080, 336, 528, 64, 280, 304, 48, 48],
+            [1616, 496, 760, 64, 352, 400, 56, 64],
+            [2280, 688, 1040, 64, 440, 512, 64, 80],
+            [3072, 912, 1400, 64, 544, 640, 72, 96],
         ];
         assert_eq!([sizes::<2>(), sizes::<3>(), sizes::<4>(), sizes::<5>(), sizes::<6>()], stated);
     }

@@ -132,11 +132,10 @@ impl<const N: usize> World<N> {
             }
         }
         contacts.clear();
-        for (slot, pair) in self.pairs.slots().iter().enumerate() {
-            let Some(pair) = pair.as_ref().filter(|pair| pair.points > 0) else { continue };
+        for (slot, pair) in self.pairs.contacts() {
             for body in [pair.body_a, pair.body_b] {
                 if places[body as usize] != NONE {
-                    contacts.push((body, slot as u32));
+                    contacts.push((body, slot));
                 }
             }
         }

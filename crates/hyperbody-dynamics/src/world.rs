@@ -5,6 +5,7 @@ use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::{Pose, Vector};
 
+use crate::balls::Plain;
 use crate::body::{Body, prepare};
 use crate::continuous::{Continuous, PieceCore};
 use crate::events::Events;
@@ -12,6 +13,7 @@ use crate::filter::IgnoredPairs;
 use crate::handle::Arena;
 use crate::islands::Islands;
 use crate::joint::Joint;
+use crate::narrow_phase::Found;
 use crate::near::Near;
 use crate::pairs::{Pair, PairRole, Pairs};
 use crate::rules::Hook;
@@ -96,6 +98,8 @@ pub(crate) struct Motion {
     pub(crate) speed: f64,
     /// Whether its body may move in this step.
     pub(crate) awake: bool,
+    /// Whether it is a ball or a half-space, and stands in `World::plain` as it is in this step.
+    pub(crate) plain: bool,
 }
 
 /// Bodies, joints, and the law that moves them, in `N` dimensions.
@@ -111,6 +115,8 @@ pub struct World<const N: usize> {
     pub(crate) colliders: Vec<Option<Collider<N>>>,
     /// One a collider.
     pub(crate) motions: Vec<Motion>,
+    /// One a collider; of this step alone.
+    pub(crate) plain: Vec<Plain<N>>,
     pub(crate) free_colliders: Vec<u32>,
     /// Slots of half-space colliders, ascending.
     pub(crate) half_spaces: Vec<u32>,
@@ -134,6 +140,8 @@ pub struct World<const N: usize> {
     pub(crate) pool: Option<Pool>,
     pub(crate) solver: Solver<N>,
     pub(crate) scratch: Vec<Scratch<N>>,
+    /// One a thread.
+    pub(crate) found: Vec<Found>,
     /// Buffers of the search for neighbours.
     pub(crate) near: Near<N>,
     pub(crate) seams: Seams<N>,
@@ -188,6 +196,7 @@ impl<const N: usize> World<N> {
             joints: Arena::new(),
             colliders: Vec::new(),
             motions: Vec::new(),
+            plain: Vec::new(),
             free_colliders: Vec::new(),
             half_spaces: Vec::new(),
             tree: DynamicTree::new(),
@@ -206,6 +215,7 @@ impl<const N: usize> World<N> {
             pool,
             solver: Solver::new(),
             scratch: (0..def.threads).map(|_| Scratch::default()).collect(),
+            found: (0..def.threads).map(|_| Found::default()).collect(),
             near: Near::default(),
             seams: Seams::default(),
             continuous: Continuous::default(),
@@ -231,7 +241,7 @@ impl<const N: usize> World<N> {
         let Some(body) = self.bodies.at_mut(body_slot) else { return };
         let slot = self.free_colliders.pop().unwrap_or_else(|| {
             self.colliders.push(None);
-            self.motions.push(Motion { way: 0.0, speed: 0.0, awake: false });
+            self.motions.push(Motion { way: 0.0, speed: 0.0, awake: false, plain: false });
             #[expect(clippy::cast_possible_truncation, reason = "fewer colliders than fit into memory")]
             let last = (self.colliders.len() - 1) as u32;
             last

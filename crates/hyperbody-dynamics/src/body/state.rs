@@ -244,6 +244,12 @@ impl<const N: usize> Body<N> {
         self.kind != BodyKind::Static && self.asleep_in.is_none() && !self.quarantined
     }
 
+    /// Speed of its fastest point about the centre of mass, m/s.
+    #[inline]
+    pub(crate) fn surface_speed_by_spin(&self) -> f64 {
+        if self.radius > 0.0 { self.angular_velocity.norm() * self.radius } else { 0.0 }
+    }
+
     /// How its surface runs, world axes, m/s.
     pub(crate) fn surface_in_world(&self) -> Vector<N> {
         if self.surface_velocity == Vector::ZERO { Vector::ZERO } else { self.rotation.rotate(self.surface_velocity) }

@@ -1,7 +1,7 @@
 //! What a snapshot is made of, part by part, as bytes. Structures list all of their fields, so that a new one cannot be
 //! forgotten; what is a buffer, or follows from the rest, is marked `unset` and made anew by `assemble`.
 
-use hyperbody_collision::max_points;
+use hyperbody_collision::{ContactPoint, max_points};
 use hyperbody_geometry::bytes::{BytesError, Reader, Stored, Writer};
 use hyperbody_geometry::{stored, stored_choice};
 use hyperbody_math::{Bivector, Vector};
@@ -14,7 +14,7 @@ use crate::handle::{Arena, BodyHandle, Handle, JointHandle, Slot};
 use crate::islands::Islands;
 use crate::joint::{Coupling, Freedom, Joint, JointDef, Motor, Spring, WORLD};
 use crate::material::{CombineRule, Material};
-use crate::pairs::{Contact, Pair, PairRole, Pairs, Passage, Search, Touch};
+use crate::pairs::{Anchors, Contact, Pair, PairRole, Pairs, Passage, Search, Touch, Touches};
 use crate::tuning::Tuning;
 use crate::world::Motion;
 
@@ -91,7 +91,7 @@ stored!(Body<N> {
     quarantined,
     solver_index: unset,
 });
-stored!(Motion { way: wide, speed: wide, awake });
+stored!(Motion { way: wide, speed: wide, awake, plain: unset });
 
 stored!(Motor { speed, max_force: wide });
 stored!(Spring { target, hz, damping_ratio, max_force: wide });
@@ -229,14 +229,30 @@ stored!(Pair<N> {
     contact,
 });
 
-stored!(Touch<N> { point, normal_impulse, step_impulse, anchors });
+/// A touch with its anchors, as bytes hold them.
+struct AnchoredTouch<const N: usize> {
+    point: ContactPoint<N>,
+    normal_impulse: f32,
+    step_impulse: f32,
+    anchors: Anchors<N>,
+}
+
+stored!(AnchoredTouch<N> { point, normal_impulse, step_impulse, anchors });
 
 impl<const N: usize> Stored for Contact<N> {
     fn write(&self, out: &mut Writer) {
         (self.radii, (self.friction, self.restitution)).write(out);
         (self.resistance, (self.surface, self.share_of_b)).write(out);
         (self.friction_impulse, (self.twist_impulse, (self.normal, self.normal_in_a))).write(out);
-        self.touches.write(out);
+        // Those of balls have no anchors.
+        let anchors = self.anchors.iter().copied().chain(std::iter::repeat((Vector::ZERO, Vector::ZERO)));
+        let anchored = self.touches.iter().zip(anchors).map(|(touch, anchors)| AnchoredTouch {
+            point: touch.point,
+            normal_impulse: touch.normal_impulse,
+            step_impulse: touch.step_impulse,
+            anchors,
+        });
+        anchored.collect::<Vec<_>>().write(out);
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Self, BytesError> {
@@ -247,7 +263,7 @@ impl<const N: usize> Stored for Contact<N> {
             return Err(from.error("radii, friction, restitution or resistance of a contact are negative"));
         }
         let (friction_impulse, (twist_impulse, (normal, normal_in_a))) = Stored::read(from)?;
-        let touches: Vec<Touch<N>> = Stored::read(from)?;
+        let touches: Vec<AnchoredTouch<N>> = Stored::read(from)?;
         if touches.len() > max_points(N) {
             return Err(from.error(format!(
                 "a contact has {} points; there are at most {} in {N} dimensions",
@@ -255,8 +271,14 @@ impl<const N: usize> Stored for Contact<N> {
                 max_points(N)
             )));
         }
+        let bare = |AnchoredTouch { point, normal_impulse, step_impulse, .. }: &_| Touch {
+            point: *point,
+            normal_impulse: *normal_impulse,
+            step_impulse: *step_impulse,
+        };
         Ok(Self {
-            touches,
+            touches: Touches::List(touches.iter().map(bare).collect()),
+            anchors: touches.iter().map(|touch| touch.anchors).collect(),
             normal,
             friction,
             restitution,

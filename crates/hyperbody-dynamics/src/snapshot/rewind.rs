@@ -181,7 +181,8 @@ impl<const N: usize> World<N> {
         let colliders = of(&self.colliders) + of(&self.motions) + self.tree.memory();
         let in_maps = self.pairs.slot_of.len() * size_of::<((u32, u32), u32)>() + self.ignored.0.len() * 8;
         let met = self.pairs.slots.iter().flatten().map(Pair::memory).sum::<usize>();
-        let pairs = of(&self.pairs.slots) + met + of(&self.pairs.free) + in_maps * 3 / 2;
+        let lists = of(&self.pairs.free) + of(&self.pairs.contacts) + of(&self.pairs.overlaps);
+        let pairs = of(&self.pairs.slots) + met + lists + in_maps * 3 / 2;
         let (islands, events) = (&self.islands, &self.events);
         let asleep = of(&islands.sleeping) + islands.sleeping.iter().map(|island| of(island)).sum::<usize>();
         let resting = of(&islands.parent) + of(&islands.least_slow_time) + of(&islands.became) + of(&islands.held);

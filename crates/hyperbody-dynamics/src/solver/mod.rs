@@ -179,16 +179,10 @@ impl<const N: usize> Solver<N> {
     /// Pairs with points and at least one body that impulses move, in the order of their slots.
     fn collect_contacts(&mut self, input: &SolverInput<'_, N>) {
         self.active.clear();
-        for (slot, pair) in input.pairs.slots().iter().enumerate() {
-            let Some(pair) = pair else { continue };
-            if pair.points == 0 {
-                continue;
-            }
+        for (slot, pair) in input.pairs.contacts() {
             let (Some(a), Some(b)) = (input.bodies.at(pair.body_a), input.bodies.at(pair.body_b)) else { continue };
             let moves = [a.is_moving(), b.is_moving()];
             if moves != [false; 2] {
-                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-                let slot = slot as u32;
                 self.active.push(ActiveContact {
                     pair: slot,
                     body_a: a.solver_index,

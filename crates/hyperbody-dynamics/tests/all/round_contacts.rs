@@ -7,6 +7,7 @@ use crate::common::{add_floor, assert_close, ball, cuboid, down, in_all_dimensio
 
 in_all_dimensions! {
     balls_move_as_by_general_rows: check_alike;
+    a_ball_on_a_half_space_is_met_as_in_general: check_on_half_space;
     a_spinning_ball_that_starts_to_roll_keeps_the_share_of_mechanics: check_start_of_rolling;
 }
 
@@ -61,6 +62,32 @@ fn check_alike<const N: usize>() {
         }
     }
     assert!(touches > 50, "only {touches} touches");
+}
+
+/// Balls that slide and roll on a half-space, the same to the bit where a say of the contact hook, which is not set, has them
+/// met the general way.
+fn check_on_half_space<const N: usize>() {
+    let rolling = |ruled: bool| {
+        let mut world = world::<N>(down());
+        add_floor(&mut world, Material::default());
+        for k in 0..3_u32 {
+            let (place, radius) = (f64::from(k), 0.3 + 0.07 * f64::from(k));
+            let def = BodyDef::new(ball(radius))
+                .position(Vector::unit(0) * (3.0 * place) + Vector::unit(1) * radius)
+                .velocity(Vector::unit(0) * (1.0 - 0.7 * place))
+                .angular_velocity(Bivector::plane(0, 1, place - 0.5))
+                .contact_hook(ruled);
+            world.add_body(def).unwrap();
+        }
+        world
+    };
+    let (mut plain, mut general) = (rolling(false), rolling(true));
+    for step in 0..60 {
+        plain.step();
+        general.step();
+        assert_eq!(plain.contacts().count(), 3, "contacts in step {step}");
+        assert_eq!(plain.state_hash(), general.state_hash(), "the two ways part in step {step}");
+    }
 }
 
 /// A ball that is set down spinning, with the backward speed of its lowest point u = ω r, rolls at last with v = u/(1 + m r²/I),

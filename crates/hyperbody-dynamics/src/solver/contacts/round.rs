@@ -305,7 +305,7 @@ pub(super) fn store<const N: usize>(rows: &[Lanes], lane: usize, contact: &mut C
     let value = |position: usize| rows[position].0[lane];
     contact.friction_impulse = Vector::from_fn(|i| f64::from(value(RoundLayout::<N>::FRICTION_IMPULSE + i)));
     contact.twist_impulse = Bivector::ZERO;
-    for touch in &mut contact.touches {
+    for touch in contact.touches.iter_mut() {
         touch.normal_impulse = value(RoundLayout::<N>::IMPULSE);
         touch.step_impulse = value(RoundLayout::<N>::STEP_IMPULSE);
     }
