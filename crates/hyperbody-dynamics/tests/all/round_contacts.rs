@@ -81,12 +81,17 @@ fn check_on_half_space<const N: usize>() {
         }
         world
     };
+    // Normal, and place, separation and impulse of the point.
+    let found = |world: &World<N>| {
+        let contacts = world.contacts();
+        contacts.map(|contact| (contact.normal(), contact.points().collect::<Vec<_>>())).collect::<Vec<_>>()
+    };
     let (mut plain, mut general) = (rolling(false), rolling(true));
     for step in 0..60 {
         plain.step();
         general.step();
         assert_eq!(plain.contacts().count(), 3, "contacts in step {step}");
-        assert_eq!(plain.state_hash(), general.state_hash(), "the two ways part in step {step}");
+        assert_eq!(found(&plain), found(&general), "the two ways part in step {step}");
     }
 }
 
