@@ -83,6 +83,8 @@ pub(crate) struct Joint<const N: usize> {
     /// Rows, those that are held first.
     pub(crate) rows: Vec<RowSpec>,
     pub(crate) held: usize,
+    /// Whether it holds a point on a point, rigidly, and nothing else.
+    pub(crate) plain: bool,
     /// Group of each axis: planes within one are free.
     pub(crate) groups: [u8; N],
     /// Impulses of each row in the last substep, before and after positions moved: they warm-start the next.
@@ -103,7 +105,9 @@ impl<const N: usize> Joint<N> {
         let mut rows = held_rows(&def);
         let held = rows.len();
         rows.extend(other_rows(&def));
+        let point = |row: &RowSpec| matches!((row.coordinate, row.role), (Coordinate::Point(_), Role::Held(_)));
         Self {
+            plain: def.softness.is_none() && rows.len() == N && rows.iter().all(point),
             body_a,
             body_b,
             arm_a: def.frame_a.translation - centre_a,

@@ -13,6 +13,12 @@ pub(crate) struct Softness {
     pub(crate) impulse_scale: f64,
 }
 
+impl Default for Softness {
+    fn default() -> Self {
+        Self::RIGID
+    }
+}
+
 impl Softness {
     /// Does not give way, and does not draw back.
     pub(crate) const RIGID: Self = Self { bias_rate: 0.0, mass_scale: 1.0, impulse_scale: 0.0 };

@@ -2,7 +2,8 @@
 //!
 //! Joints that share a moving body answer to each other. A connected set of joints is one *cluster* when its linear system can be
 //! factored at little cost: chains, trees, ragdolls, cars, small loops and nets. Its solution is then exact, however long the chain
-//! and however unequal the masses. The joints of a very large net are solved one by one instead.
+//! and however unequal the masses. Nets of ball joints for which that would cost too much are swept (`nets`), and what else there is, is solved
+//! joint by joint.
 //!
 //! The system is K x = y with a block for each pair of joints that share a body (K = J M⁻¹ Jᵀ). The plan depends on who is jointed
 //! to whom alone, and is kept while that stays the same.
@@ -13,17 +14,20 @@ use std::sync::Arc;
 
 use super::elimination::{Elimination, cost};
 use super::fronts::{Front, Room, drafts};
+use super::nets::NetPlan;
 
 /// A joint as the plan sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Link {
-    /// Which joint.
+    /// Which of those with something to do.
     pub(super) joint: u32,
     /// Whether it is solved by itself: soft joints, which have a strength of their own.
     pub(super) apart: bool,
     /// Whether some of its rows have a range: limits, motors, springs.
     pub(super) bounded: bool,
-    /// Places of its bodies, counted from 1; 0 for what impulses do not move. Places are counted by joints, so that bodies which have none
+    /// Whether nets may have it, see `nets`.
+    pub(super) plain: bool,
+    /// Its bodies, counted from 1; 0 for what impulses do not move. They are counted by joints, so that bodies which have none
     /// change nothing here.
     pub(super) bodies: [u32; 2],
     pub(super) rows: u32,
@@ -32,6 +36,7 @@ pub(super) struct Link {
 /// A joint within its cluster.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
+    /// Which of those that are not swept.
     pub(super) joint: u32,
     pub(super) rows: u32,
     /// Where its unknowns stand in the vector of its cluster.
@@ -73,7 +78,7 @@ pub(super) struct Cluster {
 }
 
 /// How joints hang together, with bodies counted as they appear: all that an order of elimination follows from.
-type Pattern = Vec<([u32; 2], u32, bool)>;
+type Pattern = Vec<([u32; 2], u32, [bool; 2])>;
 
 /// The order of everything.
 #[derive(Clone, Debug, Default)]
@@ -90,6 +95,8 @@ pub(super) struct Plan {
     later: Vec<u32>,
     into: Vec<u32>,
     children: Vec<u32>,
+    /// What is swept.
+    pub(super) nets: NetPlan,
     /// Numbers of all clusters, and of the updates that any of them needs at a time.
     pub(super) values: u32,
     pub(super) updates: u32,
@@ -104,6 +111,9 @@ const NOTHING: u64 = 200_000;
 /// How much dearer it may be at all, if the budget allows: a net of 20 × 20 is at 90. Limits and motors need new factors whenever they
 /// engage, so with some of them [`CHEAP`] is the end.
 const DEAR: u64 = 128;
+
+/// The part of the budget that nets get which can be swept instead.
+const SPARED: u64 = 50;
 
 impl Plan {
     /// Makes the plan of these links, unless it is the plan already. The budget is in multiplications.
@@ -122,6 +132,7 @@ impl Plan {
         for link in apart {
             self.add_alone(link);
         }
+        let mut swept = Vec::new();
         for component in components(&together, bodies) {
             let pattern = pattern(&component);
             let elimination = match self.eliminations.get(&pattern) {
@@ -130,9 +141,15 @@ impl Plan {
             };
             match &elimination {
                 Some(elimination) => self.add(&component, elimination, true),
+                None if component.iter().all(|link| link.plain) => swept.extend(component),
                 None => component.iter().for_each(|link| self.add_alone(*link)),
             }
             self.eliminations.insert(pattern, elimination);
+        }
+        swept.sort_unstable_by_key(|link| link.joint);
+        self.nets = NetPlan::new(&swept);
+        for node in &mut self.nodes {
+            node.joint -= self.nets.find(node.joint).0;
         }
     }
 
@@ -276,7 +293,8 @@ impl Plan {
 fn eliminate(component: &[Link], budget: u64) -> Option<Arc<Elimination>> {
     let in_a_chain: u64 = component.iter().map(|link| cost(link.rows, link.rows)).sum();
     let bounded = component.iter().any(|link| link.bounded);
-    let most = if bounded { 0 } else { budget.min(DEAR * in_a_chain) };
+    let plain = component.iter().all(|link| link.plain);
+    let most = if bounded { 0 } else { (if plain { budget / SPARED } else { budget }).min(DEAR * in_a_chain) };
     Elimination::new(component, most.max(CHEAP * in_a_chain).max(NOTHING)).map(Arc::new)
 }
 
@@ -286,7 +304,7 @@ fn pattern(component: &[Link]) -> Pattern {
         let next = number(seen.len());
         *seen.entry(body).or_insert(next)
     };
-    component.iter().map(|link| (link.bodies.map(&mut count), link.rows, link.bounded)).collect()
+    component.iter().map(|link| (link.bodies.map(&mut count), link.rows, [link.bounded, link.plain])).collect()
 }
 
 /// Links that hang together through moving bodies, in the order of their first links.

@@ -256,7 +256,14 @@ mod tests {
                 });
                 let size = (rows.len() - first) as u32;
                 let bodies = [a, b].map(|body| if body == 0 { 0 } else { body as u32 + 1 });
-                links.push(Link { joint: index as u32, apart: false, bounded: false, bodies, rows: size });
+                links.push(Link {
+                    joint: index as u32,
+                    apart: false,
+                    bounded: false,
+                    plain: false,
+                    bodies,
+                    rows: size,
+                });
             }
             let mut plan = Plan::default();
             plan.update(&links, bodies.len() + 1, 1e7);

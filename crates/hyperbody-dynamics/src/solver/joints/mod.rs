@@ -50,6 +50,8 @@ mod factor;
 mod fronts;
 mod geometry;
 mod give;
+mod members;
+mod nets;
 mod panel;
 mod place;
 #[cfg(test)]
@@ -68,9 +70,11 @@ use super::{Real, SolverInput};
 use crate::Tuning;
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::joint::{Coupling, Joint, RowSpec, WORLD};
-use cluster::{Link, Plan};
+use crate::joint::{Coupling, Joint, RowSpec};
+use cluster::{Plan, number};
 use factor::Scratch;
+use members::Members;
+use nets::Nets;
 pub(crate) use place::Moment;
 use place::Place;
 pub(crate) use solve::Pass;
@@ -163,8 +167,11 @@ pub(crate) struct Joints<const N: usize> {
     rows: Vec<Row<N>>,
     /// What the rows of each joint have to do with each other.
     own: Vec<f64>,
-    links: Vec<Link>,
+    members: Members,
     plan: Plan,
+    nets: Nets,
+    /// Springs of joints that are solved exactly, or as good as that.
+    firm: Softness,
     /// Factors of all clusters, and room for what their making and solving needs.
     factors: Vec<f64>,
     scratch: Scratch,
@@ -186,28 +193,22 @@ impl<const N: usize> Joints<N> {
         self.place_of.resize(bodies.len(), NONE);
         self.joints.clear();
         self.rows.clear();
-        self.links.clear();
+        self.members.find(input, bodies);
+        self.plan.update(&self.members.links, self.members.rows.len(), input.tuning.joint_budget);
         let mut own = 0;
-        for (handle, joint) in input.joints.iter() {
-            let a = input.bodies.at(joint.body_a);
+        for index in 0..self.members.slots.len() {
+            let slot = self.members.slots[index];
+            let Some(joint) = input.joints.at(slot).filter(|_| !self.plan.nets.find(number(index)).1) else { continue };
             let Some(b) = input.bodies.at(joint.body_b) else { continue };
-            let quarantined = b.quarantined || a.is_some_and(|a| a.quarantined);
-            let moves = b.is_moving() || a.is_some_and(Body::is_moving);
-            if quarantined || !moves || (a.is_none() && joint.body_a != WORLD) {
-                continue;
-            }
+            let a = input.bodies.at(joint.body_a);
             let (place_a, place_b) = (self.place(a, gyros), self.place(Some(b), gyros));
             let first = self.rows.len();
             self.rows.extend(joint.rows.iter().zip(&joint.impulses).map(|(&spec, &impulses)| Row::new(spec, impulses)));
-            if self.rows.len() > first {
-                self.link(joint, [place_a, place_b], bodies);
-            }
-            self.joints.push(JointRows::new(handle.index, joint, (a, place_a), (b, place_b), (first, own), h));
+            self.joints.push(JointRows::new(slot, joint, (a, place_a), (b, place_b), (first, own), h));
             own += block::len(joint.rows.len());
         }
         self.own.clear();
         self.own.resize(own, 0.0);
-        self.plan.update(&self.links, self.places.len() + 1, input.tuning.joint_budget);
         self.factors.resize(self.plan.values as usize, 0.0);
         for cluster in &self.plan.clusters {
             for node in self.plan.nodes_of(cluster) {
@@ -215,27 +216,13 @@ impl<const N: usize> Joints<N> {
             }
         }
         self.spread_stiffness(input.tuning, h);
-    }
-
-    /// Tells the plan of the joint that comes next.
-    #[expect(clippy::cast_possible_truncation, reason = "joints and bodies are counted in u32")]
-    fn link(&mut self, joint: &Joint<N>, places: [usize; 2], bodies: &[SolverBody<N>]) {
-        let moving = |place: usize| match self.places[place].row {
-            row if bodies[row].inverse_sqrt_mass > 0.0 => place as u32 + 1,
-            _ => 0,
-        };
-        self.links.push(Link {
-            joint: self.joints.len() as u32,
-            apart: joint.def.softness.is_some(),
-            bounded: joint.rows.len() > joint.held,
-            bodies: places.map(moving),
-            rows: joint.rows.len() as u32,
-        });
+        self.nets.collect(&self.plan.nets, input, bodies, (&self.members.slots, &self.members.rows));
     }
 
     /// A system that is solved exactly can be as stiff as one likes; a sweep over its parts cannot.
     fn spread_stiffness(&mut self, tuning: &Tuning, h: f64) {
         let exact = Softness::uncapped(EXACT_STIFFNESS * tuning.joint_hz, tuning.joint_damping_ratio, h);
+        self.firm = exact;
         let swept = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
         for joint in &mut self.joints {
             joint.rigid = if joint.exact { exact } else { swept };
@@ -291,6 +278,7 @@ impl<const N: usize> Joints<N> {
                 joint.let_go();
             }
         }
+        self.nets.store(&self.plan.nets, joints);
     }
 }
 

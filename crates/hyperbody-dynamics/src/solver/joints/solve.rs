@@ -41,6 +41,7 @@ impl<const N: usize> Joints<N> {
         for index in 0..self.plan.clusters.len() {
             self.factorize(index, moving);
         }
+        self.nets.refresh(&self.plan.nets, moving, moment);
     }
 
     fn factorize(&mut self, cluster: usize, moving: &Moving<'_, N>) {
@@ -86,6 +87,10 @@ impl<const N: usize> Joints<N> {
 
     /// One sweep over all clusters, forth before the move and back after it.
     pub(crate) fn solve(&mut self, moving: &mut Moving<'_, N>, pass: Pass, moment: &Moment) {
+        match pass {
+            Pass::Move => self.nets.before_move(&self.plan.nets, moving, self.firm, moment.h),
+            Pass::Settle => self.nets.after_move(&self.plan.nets, moving),
+        }
         let count = self.plan.clusters.len();
         for index in 0..count {
             let index = match pass {
