@@ -23,6 +23,7 @@ mod joint_loads;
 mod joint_rest;
 mod materials;
 mod momenta;
+mod nets;
 mod pendulums;
 mod queries;
 mod queries_limits;

@@ -149,7 +149,7 @@ impl Plan {
         swept.sort_unstable_by_key(|link| link.joint);
         self.nets = NetPlan::new(&swept);
         for node in &mut self.nodes {
-            node.joint -= self.nets.find(node.joint).0;
+            node.joint -= self.nets.joints_before(node.joint);
         }
     }
 

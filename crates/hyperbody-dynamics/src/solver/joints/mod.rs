@@ -170,8 +170,6 @@ pub(crate) struct Joints<const N: usize> {
     members: Members,
     plan: Plan,
     nets: Nets,
-    /// Springs of joints that are solved exactly, or as good as that.
-    firm: Softness,
     /// Factors of all clusters, and room for what their making and solving needs.
     factors: Vec<f64>,
     scratch: Scratch,
@@ -195,10 +193,14 @@ impl<const N: usize> Joints<N> {
         self.rows.clear();
         self.members.find(input, bodies);
         self.plan.update(&self.members.links, self.members.rows.len(), input.tuning.joint_budget);
-        let mut own = 0;
+        let (mut own, mut swept) = (0, 0);
         for index in 0..self.members.slots.len() {
+            if self.plan.nets.joints.get(swept) == Some(&number(index)) {
+                swept += 1;
+                continue;
+            }
             let slot = self.members.slots[index];
-            let Some(joint) = input.joints.at(slot).filter(|_| !self.plan.nets.find(number(index)).1) else { continue };
+            let Some(joint) = input.joints.at(slot) else { continue };
             let Some(b) = input.bodies.at(joint.body_b) else { continue };
             let a = input.bodies.at(joint.body_a);
             let (place_a, place_b) = (self.place(a, gyros), self.place(Some(b), gyros));
@@ -222,7 +224,7 @@ impl<const N: usize> Joints<N> {
     /// A system that is solved exactly can be as stiff as one likes; a sweep over its parts cannot.
     fn spread_stiffness(&mut self, tuning: &Tuning, h: f64) {
         let exact = Softness::uncapped(EXACT_STIFFNESS * tuning.joint_hz, tuning.joint_damping_ratio, h);
-        self.firm = exact;
+        self.nets.soften(tuning, h);
         let swept = Softness::new(tuning.joint_hz, tuning.joint_damping_ratio, h);
         for joint in &mut self.joints {
             joint.rigid = if joint.exact { exact } else { swept };

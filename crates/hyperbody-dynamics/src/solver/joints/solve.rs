@@ -88,7 +88,7 @@ impl<const N: usize> Joints<N> {
     /// One sweep over all clusters, forth before the move and back after it.
     pub(crate) fn solve(&mut self, moving: &mut Moving<'_, N>, pass: Pass, moment: &Moment) {
         match pass {
-            Pass::Move => self.nets.before_move(&self.plan.nets, moving, self.firm, moment.h),
+            Pass::Move => self.nets.before_move(&self.plan.nets, moving, moment.h),
             Pass::Settle => self.nets.after_move(&self.plan.nets, moving),
         }
         let count = self.plan.clusters.len();

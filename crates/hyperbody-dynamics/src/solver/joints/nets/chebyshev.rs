@@ -6,14 +6,13 @@
 //! and velocities hang together linearly, so both are extrapolated alike. It is never beyond 1, whatever the net: what is slower still gets
 //! better, too.
 
-use super::FORTH_AND_BACK;
 use crate::solver::lanes::{Lanes, Real};
 use crate::solver::machine::Machine;
 use crate::solver::wide::Wide;
 
-/// The slowest share of an error that a sweep forth and back leaves, of those that count. Nearer to 1, four of them would overshoot by more than
-/// springs bear that are a substep late.
-const SLOWEST: f64 = 0.95;
+/// The slowest share of an error that a sweep forth and back leaves, of those that count. Nearer to 1, so few of them would overshoot
+/// by more than springs bear that are a substep late.
+const SLOWEST: f64 = 0.93;
 
 /// γ and σ of the interval from 0 to [`SLOWEST`].
 const RELAXED: f64 = 2.0 / (2.0 - SLOWEST);
@@ -31,11 +30,11 @@ impl Chebyshev {
     /// Notes where the first turn starts from.
     #[inline]
     pub(super) fn start(&mut self, velocities: &[Lanes], impulses: &[Lanes]) {
-        for (kept, now) in self.last.iter_mut().zip([velocities, impulses]) {
-            kept.clear();
-            kept.extend_from_slice(now);
+        for ((last, before), now) in self.last.iter_mut().zip(&mut self.before).zip([velocities, impulses]) {
+            last.clear();
+            last.extend_from_slice(now);
+            before.resize(now.len(), Lanes::ZERO);
         }
-        self.before.clone_from(&self.last);
     }
 
     /// Goes on from what a sweep forth and back made, the `turn`th.
@@ -52,18 +51,22 @@ impl Chebyshev {
             2 => 1.0 / (1.0 - 0.5 * SIGMA * SIGMA),
             _ => 1.0 / (1.0 - 0.25 * SIGMA * SIGMA * self.omega),
         };
-        let factor = |value: f64| Wide::splat(machine, value as Real);
-        let (omega, relaxed) = (factor(self.omega), factor(RELAXED));
-        let kept = self.last.iter_mut().zip(&mut self.before);
+        let (omega, relaxed) = (Wide::splat(machine, self.omega as Real), Wide::splat(machine, RELAXED as Real));
+        let kept = self.last.iter().zip(&mut self.before);
         for (now, (last, before)) in [velocities, impulses].into_iter().zip(kept) {
             for ((now, last), before) in now.iter_mut().zip(last).zip(before) {
-                let (swept, from, x) = (now.on(machine), last.on(machine), before.on(machine));
-                *now = (omega * (relaxed * (swept - from) + (from - x)) + x).lanes();
-                if turn < FORTH_AND_BACK {
-                    *before = *last;
-                    *last = *now;
-                }
+                let (swept, from) = (now.on(machine), last.on(machine));
+                let onwards = relaxed * (swept - from);
+                let next = if turn == 1 {
+                    onwards + from
+                } else {
+                    let x = before.on(machine);
+                    omega * (onwards + (from - x)) + x
+                };
+                *now = next.lanes();
+                *before = *now;
             }
         }
+        std::mem::swap(&mut self.last, &mut self.before);
     }
 }

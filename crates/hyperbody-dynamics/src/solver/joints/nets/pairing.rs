@@ -26,7 +26,9 @@ impl<M: Machine> Side<M> {
             for (row, body) in rows.iter_mut().zip(bodies) {
                 *row = of_bodies[*body as usize * vectors::<N>() + at].on(machine);
             }
-            gathered[at * WIDTH..(at + 1) * WIDTH].copy_from_slice(&transpose(machine, &rows));
+            let columns = transpose(machine, &rows);
+            let used = WIDTH.min(Sizes::<N>::VELOCITY - at * WIDTH);
+            gathered[at * WIDTH..at * WIDTH + used].copy_from_slice(&columns[..used]);
         }
         Self(gathered)
     }
@@ -70,7 +72,7 @@ impl<M: Machine> Side<M> {
     /// The velocity at the end of an arm.
     #[inline(always)]
     pub(super) fn velocity<const N: usize>(&self, arm: &[Wide<M>; N], mass: Wide<M>) -> [Wide<M>; N] {
-        let mut velocity = act(|k| self.0[N + k], arm);
+        let mut velocity = act(&self.0[N..], arm);
         for i in 0..N {
             velocity[i] += self.0[i] * mass;
         }
@@ -80,14 +82,20 @@ impl<M: Machine> Side<M> {
 
 /// What planes make of a vector: the velocity at an offset of an angular velocity.
 #[inline(always)]
-pub(super) fn act<const N: usize, M: Machine>(planes: impl Fn(usize) -> Wide<M>, r: &[Wide<M>; N]) -> [Wide<M>; N] {
-    let mut result = [Wide::zero(r[0].machine()); N];
-    let mut k = 0;
-    for i in 0..N {
+pub(super) fn act<const N: usize, M: Machine>(planes: &[Wide<M>], r: &[Wide<M>; N]) -> [Wide<M>; N] {
+    let mut result = *r;
+    for j in 1..N {
+        result[j] = planes[j - 1] * r[0];
+    }
+    result[0] = -(planes[0] * r[1]);
+    for j in 2..N {
+        result[0] -= planes[j - 1] * r[j];
+    }
+    let mut k = N - 1;
+    for i in 1..N {
         for j in i + 1..N {
-            let plane = planes(k);
-            result[j] += plane * r[i];
-            result[i] -= plane * r[j];
+            result[j] += planes[k] * r[i];
+            result[i] -= planes[k] * r[j];
             k += 1;
         }
     }

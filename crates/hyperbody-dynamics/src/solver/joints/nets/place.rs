@@ -104,10 +104,9 @@ fn turned<const N: usize, M: Machine>(turn: &[Wide<M>; MAX_PLANES], r: &[Wide<M>
     for plane in &turn[..Sizes::<N>::K] {
         size_sq += *plane * *plane;
     }
-    let within = |limit: Real| (Wide::splat(machine, limit) - size_sq).all_positive();
-    let terms = if within(SMALL.0) {
+    let terms = if (Wide::splat(machine, SMALL.0) - size_sq).all_positive() {
         SMALL.1
-    } else if within(LARGE.0) {
+    } else if (Wide::splat(machine, LARGE.0) - size_sq).all_positive() {
         LARGE.1
     } else {
         return turned_far(turn, r);
@@ -115,7 +114,7 @@ fn turned<const N: usize, M: Machine>(turn: &[Wide<M>; MAX_PLANES], r: &[Wide<M>
     let (mut sum, mut term) = (*r, *r);
     for power in 1..=terms {
         let scale = Wide::splat(machine, 1.0 / power as Real);
-        term = act(|k| turn[k], &term);
+        term = act(turn, &term);
         for i in 0..N {
             term[i] = term[i] * scale;
             sum[i] += term[i];
@@ -169,15 +168,25 @@ fn base_rate<const N: usize, M: Machine>(
 ) {
     let machine = reach_a[0].machine();
     let elapsed = Wide::splat(machine, moment.elapsed as Real);
-    let on = |planes: usize, reach: &[Wide<M>; N]| act(|k| ground[planes + k].on(machine), reach);
-    let (spin_a, spin_b) = (on(Ground::<N>::SPIN_A, reach_a), on(Ground::<N>::SPIN_B, reach_b));
-    let (up_a, up_b) = (on(Ground::<N>::SPIN_UP_A, reach_a), on(Ground::<N>::SPIN_UP_B, reach_b));
+    let spin_a = act(&planes::<N, M>(machine, ground, Ground::<N>::SPIN_A), reach_a);
+    let spin_b = act(&planes::<N, M>(machine, ground, Ground::<N>::SPIN_B), reach_b);
+    let up_a = act(&planes::<N, M>(machine, ground, Ground::<N>::SPIN_UP_A), reach_a);
+    let up_b = act(&planes::<N, M>(machine, ground, Ground::<N>::SPIN_UP_B), reach_b);
     for i in 0..N {
         let up = (up_b[i] - up_a[i]) + ground[Ground::<N>::ACCELERATION + i];
         let rate = (spin_b[i] - spin_a[i]) + ground[Ground::<N>::VELOCITY + i] + elapsed * up;
         ground[Ground::<N>::UP + i] = up.lanes();
         swept[Swept::<N>::RATE + i] = rate.lanes();
     }
+}
+
+#[inline(always)]
+fn planes<const N: usize, M: Machine>(machine: M, ground: &[Lanes], at: usize) -> [Wide<M>; MAX_PLANES] {
+    let mut planes = [Wide::zero(machine); MAX_PLANES];
+    for (plane, lanes) in planes.iter_mut().zip(&ground[at..at + Sizes::<N>::K]) {
+        *plane = lanes.on(machine);
+    }
+    planes
 }
 
 /// K = s − a aᵀ − b bᵀ with the scaled arms a, b and s = m + |a|² + |b|², m = 1/m_a + 1/m_b. With p = m + |b|², q = m + |a|², c = a·b its inverse

@@ -24,7 +24,7 @@ impl Block {
 #[derive(Clone, Debug, Default)]
 pub(in crate::solver::joints) struct NetPlan {
     /// Which joints, in ascending order.
-    pub(super) joints: Vec<u32>,
+    pub(in crate::solver::joints) joints: Vec<u32>,
     /// By body: its number in the links; the first stands for what impulses do not move.
     pub(super) bodies: Vec<u32>,
     pub(super) blocks: Vec<Block>,
@@ -54,12 +54,9 @@ impl NetPlan {
         plan
     }
 
-    /// How many joints of nets stand before a joint, and whether it is one itself.
-    pub(in crate::solver::joints) fn find(&self, joint: u32) -> (u32, bool) {
-        match self.joints.binary_search(&joint) {
-            Ok(before) => (number(before), true),
-            Err(before) => (number(before), false),
-        }
+    /// How many of its joints stand before another.
+    pub(in crate::solver::joints) fn joints_before(&self, other: u32) -> u32 {
+        number(self.joints.partition_point(|&joint| joint < other))
     }
 
     /// Joints by colour; those that no colour has room for come last.

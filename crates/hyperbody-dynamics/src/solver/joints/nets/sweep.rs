@@ -73,6 +73,10 @@ fn start<const N: usize, M: Machine>(machine: M, numbers: &mut Numbers<'_>, soft
     let Numbers { plan, swept, ground, impulses, velocities, .. } = numbers;
     let blocks = plan.blocks.iter().zip(swept.chunks_exact_mut(Swept::<N>::LEN));
     let others = ground.chunks_exact(Ground::<N>::LEN).zip(impulses.chunks_exact(N));
+    let (compliance, bias_rate) =
+        (Wide::splat(machine, soft.compliance() as Real), Wide::splat(machine, soft.bias_rate as Real));
+    let (h, one) = (Wide::splat(machine, h as Real), Wide::splat(machine, 1.0));
+    let (push_back, least) = (Wide::splat(machine, PUSH_BACK as Real), Wide::splat(machine, Real::MIN_POSITIVE));
     for ((block, swept), (ground, impulses)) in blocks.zip(others) {
         let mut pair = Pair::<N, M>::gather(machine, block, swept, velocities);
         let impulse = load(machine, impulses, 0);
@@ -84,14 +88,13 @@ fn start<const N: usize, M: Machine>(machine: M, numbers: &mut Numbers<'_>, soft
         let mut given = impulse;
         let mut back = impulse;
         for i in 0..N {
-            given[i] = (after[i] - before[i]) * Wide::splat(machine, soft.compliance() as Real);
-            back[i] = ground[Ground::<N>::GAP + i].on(machine) * Wide::splat(machine, soft.bias_rate as Real);
+            given[i] = (after[i] - before[i]) * compliance;
+            back[i] = bias_rate * ground[Ground::<N>::GAP + i];
         }
         // What it gives way comes on top, or a great load would open the joint without end.
-        let fastest = dot(&given, &given).sqrt() + Wide::splat(machine, PUSH_BACK as Real);
-        let wanted = dot(&back, &back).sqrt().max(Wide::splat(machine, Real::MIN_POSITIVE));
-        let share = fastest.div(wanted).min(Wide::splat(machine, 1.0));
-        let h = Wide::splat(machine, h as Real);
+        let fastest = dot(&given, &given).sqrt() + push_back;
+        let wanted = dot(&back, &back).sqrt().max(least);
+        let share = fastest.div(wanted).min(one);
         for i in 0..N {
             let rate = h * ground[Ground::<N>::UP + i] + swept[Swept::<N>::RATE + i];
             swept[Swept::<N>::RATE + i] = (rate + share * back[i]).lanes();
@@ -142,18 +145,7 @@ impl Sweep<'_> {
             for i in 0..N {
                 rate[i] += swept[Swept::<N>::RATE + i];
             }
-            let mut answer = [Wide::zero(machine); N];
-            let mut at = Swept::<N>::INVERSE;
-            for i in 0..N {
-                for j in i..N {
-                    let inverse = swept[at].on(machine);
-                    at += 1;
-                    answer[i] += inverse * rate[j];
-                    if j != i {
-                        answer[j] += inverse * rate[i];
-                    }
-                }
-            }
+            let answer = answer(swept, &rate);
             let mut impulse: [Wide<M>; N] = load(machine, impulses, 0);
             let mut change = impulse;
             for i in 0..N {
@@ -165,6 +157,28 @@ impl Sweep<'_> {
             pair.scatter(block, self.velocities);
         }
     }
+}
+
+/// K⁻¹ times a rate.
+#[inline(always)]
+fn answer<const N: usize, M: Machine>(swept: &[Lanes], rate: &[Wide<M>; N]) -> [Wide<M>; N] {
+    let mut answer = *rate;
+    let mut inverse = swept[Swept::<N>::INVERSE..Swept::<N>::LEN].iter();
+    for (i, lanes) in inverse.by_ref().take(N).enumerate() {
+        answer[i] = rate[0] * *lanes;
+        if i > 0 {
+            answer[0] += rate[i] * *lanes;
+        }
+    }
+    for i in 1..N {
+        for (j, lanes) in (i..N).zip(inverse.by_ref()) {
+            answer[i] += rate[j] * *lanes;
+            if j != i {
+                answer[j] += rate[i] * *lanes;
+            }
+        }
+    }
+    answer
 }
 
 /// Both bodies of eight joints.
