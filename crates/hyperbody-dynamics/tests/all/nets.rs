@@ -6,7 +6,6 @@ use hyperbody_math::{Bivector, Vector, planes};
 
 in_all_dimensions! {
     a_free_net_keeps_both_momenta: check_free;
-    a_hanging_net_is_where_an_exact_one_is: check_exact;
     a_net_that_falls_gains_no_energy: check_fall;
 }
 
@@ -14,25 +13,26 @@ in_all_dimensions! {
 const SIDE: usize = 10;
 
 /// Enough for the whole net to be solved together.
-const EXACT: f64 = 1e8;
+const EXACT: f64 = 1e9;
 
 fn world<const N: usize>(gravity: Vector<N>, joint_budget: f64) -> World<N> {
     let tuning = Tuning { joint_budget, ..Tuning::default() };
     World::new(WorldDef { gravity, tuning, sleeping: false, ..WorldDef::default() }).unwrap()
 }
 
-/// Adds a net of balls that do not collide; `held` tells which ones are fixed, by row and column.
+/// Adds a net of balls; `held` tells which ones are fixed, by row and column.
 fn add_net<const N: usize>(
     world: &mut World<N>,
     def: impl Fn(Vector<N>) -> BodyDef<N>,
     held: impl Fn(usize, usize) -> bool,
+    groups: Groups,
 ) -> Vec<BodyHandle> {
     let mut knots: Vec<BodyHandle> = Vec::new();
     for i in 0..SIDE {
         for j in 0..SIDE {
             let at = Vector::unit(0) * i as f64 + Vector::unit(N - 1) * j as f64;
             let knot = if held(i, j) { BodyDef::fixed(ball(0.25)).position(at) } else { def(at) };
-            let knot = world.add_body(knot.groups(Groups::NONE)).unwrap();
+            let knot = world.add_body(knot.groups(groups)).unwrap();
             let left = (i > 0).then(|| (knots[(i - 1) * SIDE + j], 0));
             let behind = (j > 0).then(|| (knots[i * SIDE + j - 1], N - 1));
             for (neighbour, axis) in left.into_iter().chain(behind) {
@@ -72,8 +72,8 @@ fn check_free<const N: usize>() {
         let mass = random.between(0.5, 2.0);
         BodyDef::new(ball(0.25)).mass(mass).position(at).velocity(random.vector(2.0)).angular_velocity(spin)
     };
-    add_net(&mut world, def, |_, _| false);
-    let (momentum, spin, mut energy) = (world.momentum(), world.angular_momentum(), world.energy().kinetic);
+    add_net(&mut world, def, |_, _| false, Groups::NONE);
+    let (momentum, spin, energy) = (world.momentum(), world.angular_momentum(), world.energy().kinetic);
     let (mut size, mut spin_size) = (0.0, 0.0);
     for (_, body) in world.bodies() {
         let momentum = body.mass() * body.velocity().norm();
@@ -88,7 +88,6 @@ fn check_free<const N: usize>() {
         assert!(off < 5e-7, "{N}D: angular momentum off by {off:e} of {spin_size} at step {step}");
         let now = world.energy().kinetic;
         assert!(now < energy * 1.001, "{N}D: energy grew from {energy} to {now} at step {step}");
-        energy = energy.min(now);
     }
     assert!(gap(&world) < 0.01, "{N}D: joints {} m apart", gap(&world));
 }
@@ -98,8 +97,8 @@ fn check_exact<const N: usize>() {
     let hung = |joint_budget| {
         let mut world = world::<N>(down(), joint_budget);
         let def = |at| BodyDef::new(ball(0.25)).mass(1.0).position(at).linear_damping(2.0);
-        let knots = add_net(&mut world, def, |i, j| i == 0 && (j == 0 || j == SIDE - 1));
-        (0..1200).for_each(|_| world.step());
+        let knots = add_net(&mut world, def, |i, j| i == 0 && (j == 0 || j == SIDE - 1), Groups::NONE);
+        (0..600).for_each(|_| world.step());
         (world, knots)
     };
     let ((swept, knots), (exact, others)) = (hung(Tuning::default().joint_budget), hung(EXACT));
@@ -126,6 +125,13 @@ fn check_exact<const N: usize>() {
     assert!(off < 0.01, "{N}D: the corners bear {force:?} N in place of {weight} N");
 }
 
+/// In the plane such a net is cheap enough to be solved exactly.
+#[test]
+fn a_hanging_net_is_where_an_exact_one_is() {
+    check_exact::<3>();
+    check_exact::<4>();
+}
+
 /// Let go flat, held by one corner, and hit: it whips, and neither opens far nor gains anything.
 fn check_fall<const N: usize>() {
     let mut world = world::<N>(down(), Tuning::default().joint_budget);
@@ -133,7 +139,7 @@ fn check_fall<const N: usize>() {
         let hit = if at[0] < 3.0 { Vector::unit(1) * 5.0 } else { Vector::ZERO };
         BodyDef::new(ball(0.25)).mass(1.0).position(at).velocity(hit)
     };
-    add_net(&mut world, def, |i, j| i == 0 && j == 0);
+    add_net(&mut world, def, |i, j| i == 0 && j == 0, Groups::NONE);
     let start = total(&world);
     let weight = GRAVITY * (SIDE * SIDE) as f64;
     for step in 0..480 {
@@ -144,43 +150,22 @@ fn check_fall<const N: usize>() {
     }
 }
 
-/// Balls fall onto a net that hangs by its four corners, and lie in it.
+/// A ball falls onto a net of balls that hangs by its four corners, and lies on it.
 #[test]
-fn a_net_catches_balls() {
+fn a_net_catches_a_ball() {
     let mut world = world::<3>(down(), Tuning::default().joint_budget);
     let corner = |k| k == 0 || k == SIDE - 1;
-    let def = |at| BodyDef::new(ball(0.45)).mass(0.5).position(at);
-    let mut knots: Vec<BodyHandle> = Vec::new();
-    for i in 0..SIDE {
-        for j in 0..SIDE {
-            let at = Vector::from([i as f64, 0.0, j as f64]);
-            let knot = if corner(i) && corner(j) { BodyDef::fixed(ball(0.45)).position(at) } else { def(at) };
-            let knot = world.add_body(knot).unwrap();
-            let left = (i > 0).then(|| (knots[(i - 1) * SIDE + j], 0));
-            let behind = (j > 0).then(|| (knots[i * SIDE + j - 1], 2));
-            for (neighbour, axis) in left.into_iter().chain(behind) {
-                let half = Vector::unit(axis) * 0.5;
-                world.add_joint(JointDef::ball(neighbour, knot, half, -half)).unwrap();
-            }
-            knots.push(knot);
-        }
-    }
-    let caught: Vec<BodyHandle> = (0..4_u32)
-        .map(|k| {
-            let at = Vector::from([4.5 + 0.1 * f64::from(k % 2), 3.0 + 2.5 * f64::from(k), 4.4 + 0.1 * f64::from(k)]);
-            world.add_body(BodyDef::new(ball(1.0)).mass(10.0).position(at)).unwrap()
-        })
-        .collect();
-    for step in 0..900 {
+    let knot = |at| BodyDef::new(ball(0.45)).mass(0.5).position(at);
+    add_net(&mut world, knot, |i, j| corner(i) && corner(j), Groups::ALL);
+    let at = Vector::from([4.5, 3.0, 4.5]);
+    let caught = world.add_body(BodyDef::new(ball(1.0)).mass(20.0).position(at)).unwrap();
+    for step in 0..600 {
         world.step();
-        assert!(gap(&world) < 0.15, "joints {} m apart at step {step}", gap(&world));
+        assert!(gap(&world) < 0.1, "joints {} m apart at step {step}", gap(&world));
     }
-    for ball in caught {
-        let body = world.body(ball).unwrap();
-        let height = body.position()[1];
-        assert!(height > -6.0, "a ball fell through to {height} m");
-        assert!(body.velocity().norm() < 2.0, "a ball goes on at {} m/s", body.velocity().norm());
-    }
+    let body = world.body(caught).unwrap();
+    assert!(world.contacts().count() >= 3, "the ball touches {} knots", world.contacts().count());
+    assert!(body.position()[1] > 0.0 && body.velocity().norm() < 0.5, "the ball is at {:?}", body.position());
 }
 
 /// In the middle of a fall, with impulses that are carried on.
@@ -188,7 +173,8 @@ fn a_net_catches_balls() {
 fn the_future_of_a_net_repeats_from_a_snapshot() {
     let mut world = world::<3>(down(), Tuning::default().joint_budget);
     let corner = |k| k == 0 || k == SIDE - 1;
-    add_net(&mut world, |at| BodyDef::new(ball(0.25)).position(at), |i, j| corner(i) && corner(j));
+    let knot = |at| BodyDef::new(ball(0.25)).position(at);
+    add_net(&mut world, knot, |i, j| corner(i) && corner(j), Groups::NONE);
     (0..40).for_each(|_| world.step());
     let snapshot = world.snapshot();
     (0..60).for_each(|_| world.step());
@@ -202,8 +188,9 @@ fn the_future_of_a_net_repeats_from_a_snapshot() {
 #[test]
 fn steps_of_nets_take_nothing_from_the_heap() {
     let mut world = world::<4>(down(), Tuning::default().joint_budget);
-    add_net(&mut world, |at| BodyDef::new(ball(0.25)).position(at), |i, _| i == 0);
-    (0..60).for_each(|_| world.step());
+    let knot = |at| BodyDef::new(ball(0.25)).position(at).linear_damping(2.0);
+    add_net(&mut world, knot, |i, _| i == 0, Groups::NONE);
+    (0..600).for_each(|_| world.step());
     let taken = allocation_counter::measure(|| (0..30).for_each(|_| world.step()));
     assert_eq!(taken.count_total, 0, "{taken:?}");
 }

@@ -59,8 +59,6 @@ pub(super) struct Coupling {
     /// The joints, as nodes of the plan.
     pub(super) later: u32,
     pub(super) earlier: u32,
-    /// Place of the shared body, counted from 1.
-    pub(super) body: u32,
     /// Whether the shared body is the second of the later and of the earlier joint.
     pub(super) second: [bool; 2],
 }
@@ -279,7 +277,7 @@ impl Plan {
                     for (other_side, &other) in link(early).bodies.iter().enumerate() {
                         if body == other && body != 0 {
                             let second = [side == 1, other_side == 1];
-                            self.couplings.push(Coupling { column, row, later, earlier, body, second });
+                            self.couplings.push(Coupling { column, row, later, earlier, second });
                         }
                     }
                 }

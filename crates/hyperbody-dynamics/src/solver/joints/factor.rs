@@ -122,13 +122,12 @@ impl<const N: usize> Parts<'_, N> {
     }
 
     fn put_coupling(&self, plan: &Plan, front: &Front, coupling: &Coupling, panel: &mut [f64]) {
-        let body = &self.bodies[self.places[coupling.body as usize - 1].row];
+        let joint = |node: u32| &self.joints[plan.nodes[node as usize].joint as usize];
+        let (later, earlier) = (joint(coupling.later), joint(coupling.earlier));
+        let shared = if coupling.second[0] { later.b } else { later.a };
+        let body = &self.bodies[self.places[shared].row];
         let inverse_mass = body.inverse_sqrt_mass * body.inverse_sqrt_mass;
-        let of = |node: u32| {
-            let joint = &self.joints[plan.nodes[node as usize].joint as usize];
-            &self.rows[joint.first..joint.end]
-        };
-        let (later, earlier) = (of(coupling.later), of(coupling.earlier));
+        let (later, earlier) = (&self.rows[later.first..later.end], &self.rows[earlier.first..earlier.end]);
         let sign = if coupling.second[0] == coupling.second[1] { 1.0 } else { -1.0 };
         for (j, other) in earlier.iter().enumerate() {
             let other_arm = if coupling.second[1] { &other.arm_b } else { &other.arm_a };

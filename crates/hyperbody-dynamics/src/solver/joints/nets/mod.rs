@@ -29,6 +29,8 @@
 //! | `chebyshev` | their acceleration |
 //! | `pairing` | both bodies of eight joints |
 
+#[cfg(test)]
+mod bits;
 mod chebyshev;
 mod layout;
 mod pairing;
