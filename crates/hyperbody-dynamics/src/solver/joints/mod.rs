@@ -6,8 +6,8 @@
 //!
 //! Joints that hang together are solved together, by factors of their linear system (`cluster`, `factor`): a chain of a hundred
 //! links is as firm as one joint. Limits and motors are rows of that system too, as long as they press and are not at their
-//! strength. Only nets too large for that are swept joint by joint, as in engines that know no other way; their joints are softer, because
-//! a sweep over springs is stable up to a stiffness only.
+//! strength. Nets of ball joints for which that would be dear are swept, by a method of their own (`nets`). What else is too large is swept
+//! joint by joint, as in engines that know no other way; its joints are softer, because a sweep over springs is stable up to a stiffness only.
 //!
 //! # What the substep does, and why it keeps energy
 //!
@@ -28,6 +28,8 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `members` | which joints there are in a step |
+//! | `nets` | nets of ball joints |
 //! | `place` | where jointed bodies are, and will be, within the step |
 //! | `geometry` | coordinates of a joint and their levers |
 //! | `coupled` | where teeth and threads press |
