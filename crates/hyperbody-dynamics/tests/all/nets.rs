@@ -92,12 +92,12 @@ fn check_free<const N: usize>() {
     assert!(gap(&world) < 0.01, "{N}D: joints {} m apart", gap(&world));
 }
 
-/// Hung by two corners like a curtain, with air that brings it to rest.
+/// A curtain on a rod, with air that brings it to rest. (Between two corners it would be taut, and its sag the root of what it gives.)
 fn check_exact<const N: usize>() {
     let hung = |joint_budget| {
         let mut world = world::<N>(down(), joint_budget);
         let def = |at| BodyDef::new(ball(0.25)).mass(1.0).position(at).linear_damping(2.0);
-        let knots = add_net(&mut world, def, |i, j| i == 0 && (j == 0 || j == SIDE - 1), Groups::NONE);
+        let knots = add_net(&mut world, def, |i, _| i == 0, Groups::NONE);
         (0..600).for_each(|_| world.step());
         (world, knots)
     };
@@ -107,10 +107,10 @@ fn check_exact<const N: usize>() {
     let apart = apart.fold(0.0, f64::max);
     println!("{N}D: {apart} m apart, gaps {} and {} m", gap(&swept), gap(&exact));
     assert!(apart > 0.0, "{N}D: the net was solved exactly both times");
-    assert!(apart < 0.1, "{N}D: {apart} m apart");
-    assert!(gap(&swept) < 0.02 && gap(&exact) < 0.01, "{N}D: joints {} and {} m apart", gap(&swept), gap(&exact));
-    // The corners bear the whole net.
-    let held = |knot: Option<BodyHandle>| knot.is_some_and(|knot| knot == knots[0] || knot == knots[SIDE - 1]);
+    assert!(apart < 0.02, "{N}D: {apart} m apart");
+    assert!(gap(&swept) < 0.005 && gap(&exact) < 0.005, "{N}D: joints {} and {} m apart", gap(&swept), gap(&exact));
+    // The rod bears the whole net.
+    let held = |knot: Option<BodyHandle>| knot.is_some_and(|knot| knots[..SIDE].contains(&knot));
     let mut force = Vector::ZERO;
     for (_, joint) in swept.joints() {
         if held(joint.def().a) {
@@ -120,9 +120,9 @@ fn check_exact<const N: usize>() {
             force -= joint.force();
         }
     }
-    let weight = GRAVITY * (SIDE * SIDE - 2) as f64;
+    let weight = GRAVITY * (SIDE * SIDE - SIDE) as f64;
     let off = (force - Vector::unit(1) * weight).norm() / weight;
-    assert!(off < 0.01, "{N}D: the corners bear {force:?} N in place of {weight} N");
+    assert!(off < 0.01, "{N}D: the rod bears {force:?} N in place of {weight} N");
 }
 
 /// In the plane such a net is cheap enough to be solved exactly.
