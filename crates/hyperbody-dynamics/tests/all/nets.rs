@@ -107,8 +107,8 @@ fn check_exact<const N: usize>() {
     let apart = apart.fold(0.0, f64::max);
     println!("{N}D: {apart} m apart, gaps {} and {} m", gap(&swept), gap(&exact));
     assert!(apart > 0.0, "{N}D: the net was solved exactly both times");
-    assert!(apart < 0.02, "{N}D: {apart} m apart");
-    assert!(gap(&swept) < 0.005 && gap(&exact) < 0.005, "{N}D: joints {} and {} m apart", gap(&swept), gap(&exact));
+    assert!(apart < 0.002, "{N}D: {apart} m apart");
+    assert!(gap(&swept) < 0.001 && gap(&exact) < 0.001, "{N}D: joints {} and {} m apart", gap(&swept), gap(&exact));
     // The rod bears the whole net.
     let held = |knot: Option<BodyHandle>| knot.is_some_and(|knot| knots[..SIDE].contains(&knot));
     let mut force = Vector::ZERO;

@@ -8,7 +8,7 @@
 //! units, u ← u − c (v + u + β g), v ← v + u, g ← g + v: to leading order z³ + c z² + c z + c β, which grows if β > c. A net has modes
 //! without end that hardly move anything (a flat net of crosses has more conditions than motions), and of those c is small. Springs that give way
 //! give them all at least the c that belongs to their compliance; and so the compliance that springs have to have, and with it what a net gives under its
-//! load, is as much smaller as sweeps are better. So they are accelerated (`chebyshev`): four sweeps forth and back do what thirty would.
+//! load, is as much smaller as sweeps are better. So they are accelerated (`chebyshev`): three sweeps forth and back do what thirteen would.
 //! Springs that are as soft in each direction as K is (E. Catto, "Soft Constraints", 2011) give slow modes the same c whatever the arms.
 //!
 //! *Tangents are enough.* Both passes mend one impulse, at first order: a net that swings loses energy, and does not ring.
