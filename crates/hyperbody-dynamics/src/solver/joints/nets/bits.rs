@@ -81,24 +81,21 @@ fn substep<const N: usize>(wide: bool, farthest: f64) -> Vec<Lanes> {
         moment: &moment,
     };
     run(wide, refresh);
-    let numbers = Numbers {
-        plan: &plan,
-        swept: &mut swept,
-        ground: &mut ground,
-        impulses: &mut impulses,
-        velocities: &mut velocities,
-        chebyshev: &mut chebyshev,
-    };
-    run(wide, Move::<N> { numbers, soft, h: moment.h });
-    let numbers = Numbers {
-        plan: &plan,
-        swept: &mut swept,
-        ground: &mut ground,
-        impulses: &mut impulses,
-        velocities: &mut velocities,
-        chebyshev: &mut chebyshev,
-    };
-    run(wide, Settle::<N> { numbers });
+    for moves in [true, false] {
+        let numbers = Numbers {
+            plan: &plan,
+            swept: &mut swept,
+            ground: &mut ground,
+            impulses: &mut impulses,
+            velocities: &mut velocities,
+            chebyshev: &mut chebyshev,
+        };
+        if moves {
+            run(wide, Move::<N> { numbers, soft, h: moment.h });
+        } else {
+            run(wide, Settle::<N> { numbers });
+        }
+    }
     [swept, ground, impulses, velocities].concat()
 }
 

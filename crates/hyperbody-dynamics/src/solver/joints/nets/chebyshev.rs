@@ -38,7 +38,7 @@ impl Chebyshev {
     }
 
     /// Goes on from what a sweep forth and back made, the `turn`th.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn extrapolate<M: Machine>(
         &mut self,
         machine: M,

@@ -20,6 +20,9 @@
 //! Tried: chains of a net solved exactly in turn, which is no better than joints; impulses that are drawn on slowly until the gap is gone, which
 //! swings up; gaps mended as places, beside velocities, which is safe but as slow as plain sweeps.
 //!
+//! Functions of passes are inlined where that is what gives them the machine's instructions. In a browser all code has them, and the module is
+//! lighter without.
+//!
 //! | file | holds |
 //! |---|---|
 //! | `plan` | which joints are swept side by side |

@@ -18,7 +18,7 @@ pub(super) const fn vectors<const N: usize>() -> usize {
 pub(super) struct Side<M: Machine>([Wide<M>; MAX]);
 
 impl<M: Machine> Side<M> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn gather<const N: usize>(machine: M, of_bodies: &[Lanes], bodies: &[u32; WIDTH]) -> Self {
         let mut gathered = [Wide::zero(machine); MAX];
         for at in 0..vectors::<N>() {
@@ -34,7 +34,7 @@ impl<M: Machine> Side<M> {
     }
 
     /// Body 0 stands for all that no impulse moves, and stays zero whatever is put there.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn scatter<const N: usize>(&self, of_bodies: &mut [Lanes], bodies: &[u32; WIDTH]) {
         for at in 0..vectors::<N>() {
             let mut columns = [self.0[0]; WIDTH];
@@ -46,18 +46,18 @@ impl<M: Machine> Side<M> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn linear(&self, i: usize) -> Wide<M> {
         self.0[i]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn angular<const N: usize>(&self, k: usize) -> Wide<M> {
         self.0[N + k]
     }
 
     /// Adds an impulse.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn push<const N: usize>(&mut self, impulse: &[Wide<M>; N], arm: &[Wide<M>; N], mass: Wide<M>) {
         let mut k = N;
         for i in 0..N {
@@ -70,7 +70,7 @@ impl<M: Machine> Side<M> {
     }
 
     /// The velocity at the end of an arm.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn velocity<const N: usize>(&self, arm: &[Wide<M>; N], mass: Wide<M>) -> [Wide<M>; N] {
         let mut velocity = act(&self.0[N..], arm);
         for i in 0..N {
@@ -81,7 +81,7 @@ impl<M: Machine> Side<M> {
 }
 
 /// What planes make of a vector: the velocity at an offset of an angular velocity.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn act<const N: usize, M: Machine>(planes: &[Wide<M>], r: &[Wide<M>; N]) -> [Wide<M>; N] {
     let mut result = *r;
     for j in 1..N {
@@ -102,7 +102,7 @@ pub(super) fn act<const N: usize, M: Machine>(planes: &[Wide<M>], r: &[Wide<M>; 
     result
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn load<const N: usize, M: Machine>(machine: M, lanes: &[Lanes], at: usize) -> [Wide<M>; N] {
     let mut vector = [Wide::zero(machine); N];
     for (value, lanes) in vector.iter_mut().zip(&lanes[at..at + N]) {
@@ -111,14 +111,14 @@ pub(super) fn load<const N: usize, M: Machine>(machine: M, lanes: &[Lanes], at: 
     vector
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn put<const N: usize, M: Machine>(lanes: &mut [Lanes], at: usize, vector: &[Wide<M>; N]) {
     for (lanes, value) in lanes[at..at + N].iter_mut().zip(vector) {
         *lanes = value.lanes();
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn dot<const N: usize, M: Machine>(a: &[Wide<M>; N], b: &[Wide<M>; N]) -> Wide<M> {
     let mut sum = a[0] * b[0];
     for i in 1..N {

@@ -29,7 +29,7 @@ pub(super) struct Refresh<'a, const N: usize> {
 }
 
 impl<const N: usize> Pass for Refresh<'_, N> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<M: Machine>(self, machine: M) {
         let Self { blocks, swept, ground, displacements, moment } = self;
         let swept = swept.chunks_exact_mut(Swept::<N>::LEN);
@@ -45,7 +45,7 @@ impl<const N: usize> Pass for Refresh<'_, N> {
 }
 
 /// Finds gap and arms; the arms are returned in metres.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn locate<const N: usize, M: Machine>(
     (a, b): (&Side<M>, &Side<M>),
     swept: &mut [Lanes],
@@ -79,7 +79,7 @@ fn locate<const N: usize, M: Machine>(
 }
 
 /// The turn of a body since the start of the step, as a bivector.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn turn<const N: usize, M: Machine>(
     side: &Side<M>,
     ground: &[Lanes],
@@ -97,7 +97,7 @@ fn turn<const N: usize, M: Machine>(
 }
 
 /// exp θ · r.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn turned<const N: usize, M: Machine>(turn: &[Wide<M>; MAX_PLANES], r: &[Wide<M>; N]) -> [Wide<M>; N] {
     let machine = r[0].machine();
     let mut size_sq = Wide::zero(machine);
@@ -123,7 +123,7 @@ fn turned<const N: usize, M: Machine>(turn: &[Wide<M>; MAX_PLANES], r: &[Wide<M>
     sum
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn turned_far<const N: usize, M: Machine>(turn: &[Wide<M>; MAX_PLANES], r: &[Wide<M>; N]) -> [Wide<M>; N] {
     let mut result = *r;
     let mut lanes = [Lanes::ZERO; N];
@@ -158,7 +158,7 @@ fn turn_one_by_one<const N: usize>(planes: &[Lanes; MAX_PLANES], r: &mut [Lanes;
 }
 
 /// The rate of base velocities, and what base accelerations add to it.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn base_rate<const N: usize, M: Machine>(
     swept: &mut [Lanes],
     ground: &mut [Lanes],
@@ -180,7 +180,7 @@ fn base_rate<const N: usize, M: Machine>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn planes<const N: usize, M: Machine>(machine: M, ground: &[Lanes], at: usize) -> [Wide<M>; MAX_PLANES] {
     let mut planes = [Wide::zero(machine); MAX_PLANES];
     for (plane, lanes) in planes.iter_mut().zip(&ground[at..at + Sizes::<N>::K]) {
@@ -191,7 +191,7 @@ fn planes<const N: usize, M: Machine>(machine: M, ground: &[Lanes], at: usize) -
 
 /// K = s − a aᵀ − b bᵀ with the scaled arms a, b and s = m + |a|² + |b|², m = 1/m_a + 1/m_b. With p = m + |b|², q = m + |a|², c = a·b its inverse
 /// is (1 + (a (q a + c b)ᵀ + b (c a + p b)ᵀ)/d)/s, where d = p q − c² = m s + |a ∧ b|² (M. A. Woodbury, 1950).
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn invert<const N: usize, M: Machine>(machine: M, swept: &mut [Lanes]) {
     let a: [Wide<M>; N] = load(machine, swept, Swept::<N>::ARM_A);
     let b: [Wide<M>; N] = load(machine, swept, Swept::<N>::ARM_B);

@@ -37,7 +37,7 @@ pub(super) struct Settle<'a, const N: usize> {
 }
 
 impl<const N: usize> Pass for Move<'_, N> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<M: Machine>(self, machine: M) {
         let Self { mut numbers, soft, h } = self;
         start::<N, M>(machine, &mut numbers, soft, h);
@@ -45,17 +45,16 @@ impl<const N: usize> Pass for Move<'_, N> {
         for turn in 1..=FORTH_AND_BACK {
             let Numbers { plan, swept, impulses, velocities, .. } = &mut numbers;
             let mut sweep = Sweep { swept, impulses, velocities, soft };
-            sweep.run::<N, M>(machine, plan, 0..plan.blocks.len());
-            // The last colour has just had its turn, and would change nothing.
+            // The last colour has just had its turn, and would change nothing on the way back.
             let last = plan.ends.len().checked_sub(2).map_or(0, |colour| plan.ends[colour]);
-            sweep.run::<N, M>(machine, plan, (0..last).rev());
+            sweep.run::<N, M>(machine, plan, (0..plan.blocks.len()).chain((0..last).rev()));
             numbers.chebyshev.extrapolate(machine, numbers.velocities, numbers.impulses, turn);
         }
     }
 }
 
 impl<const N: usize> Pass for Settle<'_, N> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<M: Machine>(self, machine: M) {
         let Numbers { plan, swept, ground, impulses, velocities, .. } = self.numbers;
         let mut sweep = Sweep { swept, impulses, velocities, soft: Softness::RIGID };
@@ -68,7 +67,7 @@ impl<const N: usize> Pass for Settle<'_, N> {
 }
 
 /// Applies the impulses of the last substep at the present place, and finds what springs ask for.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn start<const N: usize, M: Machine>(machine: M, numbers: &mut Numbers<'_>, soft: Softness, h: f64) {
     let Numbers { plan, swept, ground, impulses, velocities, .. } = numbers;
     let blocks = plan.blocks.iter().zip(swept.chunks_exact_mut(Swept::<N>::LEN));
@@ -103,7 +102,7 @@ fn start<const N: usize, M: Machine>(machine: M, numbers: &mut Numbers<'_>, soft
 }
 
 /// Adds the impulses of a substep to those of the step.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn add_up<const N: usize, M: Machine>(machine: M, ground: &mut [Lanes], impulses: &[Lanes]) {
     let impulse: [Wide<M>; N] = load(machine, impulses, 0);
     let mut gap: [Wide<M>; N] = load(machine, ground, Ground::<N>::GAP);
@@ -132,7 +131,7 @@ struct Sweep<'a> {
 
 impl Sweep<'_> {
     /// Solves blocks one after the other: λ ← λ − σ K⁻¹ r − τ λ, of a spring as soft in every direction as K.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<const N: usize, M: Machine>(&mut self, machine: M, plan: &NetPlan, blocks: impl Iterator<Item = usize>) {
         let mass_scale = Wide::splat(machine, self.soft.mass_scale as Real);
         let impulse_scale = Wide::splat(machine, self.soft.impulse_scale as Real);
@@ -160,7 +159,7 @@ impl Sweep<'_> {
 }
 
 /// K⁻¹ times a rate.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn answer<const N: usize, M: Machine>(swept: &[Lanes], rate: &[Wide<M>; N]) -> [Wide<M>; N] {
     let mut answer = *rate;
     let mut inverse = swept[Swept::<N>::INVERSE..Swept::<N>::LEN].iter();
@@ -192,7 +191,7 @@ struct Pair<const N: usize, M: Machine> {
 }
 
 impl<const N: usize, M: Machine> Pair<N, M> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn gather(machine: M, block: &Block, swept: &[Lanes], velocities: &[Lanes]) -> Self {
         Self {
             a: Side::gather::<N>(machine, velocities, &block.a),
@@ -204,14 +203,14 @@ impl<const N: usize, M: Machine> Pair<N, M> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn scatter(&self, block: &Block, velocities: &mut [Lanes]) {
         self.a.scatter::<N>(velocities, &block.a);
         self.b.scatter::<N>(velocities, &block.b);
     }
 
     /// Velocity of the anchor on b against that on a, as far as impulses made it.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn rate(&self) -> [Wide<M>; N] {
         let on_a = self.a.velocity(&self.arm_a, self.mass_a);
         let mut rate = self.b.velocity(&self.arm_b, self.mass_b);
@@ -222,7 +221,7 @@ impl<const N: usize, M: Machine> Pair<N, M> {
     }
 
     /// Applies an impulse on b, and its opposite on a.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn push(&mut self, impulse: &[Wide<M>; N]) {
         let mut opposite = *impulse;
         for i in 0..N {
