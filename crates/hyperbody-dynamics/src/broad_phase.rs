@@ -6,63 +6,59 @@
 use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
 use hyperbody_math::Vector;
+use rayon::prelude::*;
 
-use crate::World;
 use crate::balls::Plain;
+use crate::body::Body;
+use crate::handle::Arena;
 use crate::narrow_phase::moved;
 use crate::near::Near;
-use crate::pairs::{Pair, PairRole, Surface, in_order};
-use crate::world::Collider;
+use crate::pairs::{NONE, Pair, PairRole, Surface, in_order};
+use crate::threads::MANY_BODIES;
+use crate::world::{Collider, Motion};
+use crate::{BodyHandle, Tuning, World};
 
 impl<const N: usize> World<N> {
     /// Brings boxes, tree and pairs up to date with the bodies' poses.
     pub(crate) fn update_broad_phase(&mut self) {
+        self.restart_ways();
         self.refit_boxes();
-        self.drop_ended_pairs();
-        self.find_new_pairs();
-        for collider in self.colliders.iter_mut().flatten() {
-            collider.moved = false;
+        if self.motions.iter().any(|motion| motion.moved) {
+            self.put_back_into_tree();
+            self.drop_ended_pairs();
+            self.find_new_pairs();
+            self.motions.iter_mut().for_each(|motion| motion.moved = false);
         }
         if self.tree.should_rebuild() {
             self.tree.rebuild();
         }
     }
 
+    /// Moves colliders along with their bodies, stretches of them side by side.
     fn refit_boxes(&mut self) {
-        self.restart_ways();
         self.plain.resize(self.colliders.len(), Plain::Other);
-        for ((collider, motion), plain) in self.colliders.iter_mut().zip(&mut self.motions).zip(&mut self.plain) {
-            let Some(collider) = collider else { continue };
-            let Some(body) = self.bodies.at(collider.body) else { continue };
-            motion.awake = body.is_awake();
-            motion.speed = if body.quarantined { f64::INFINITY } else { 0.0 };
-            if !(motion.awake || collider.moved) {
-                motion.plain = plain.take(collider, body);
-                continue;
-            }
-            let spin = body.surface_speed_by_spin();
-            if motion.awake {
-                motion.speed = body.velocity.norm() + spin;
-            }
-            let pose = body.world_from_body() * collider.body_from_collider;
-            motion.way += match &collider.piece {
-                Piece::Convex(_) => moved(&collider.world_from_collider, &pose, collider.reach),
-                // Unbounded: wherever it turns, something is swept.
-                Piece::HalfSpace { .. } if pose != collider.world_from_collider => {
-                    2.0 * self.tuning.recycle_distance + self.tuning.speculative_distance
-                }
-                Piece::HalfSpace { .. } => 0.0,
-            };
-            collider.world_from_collider = pose;
-            motion.plain = plain.take(collider, body);
-            let (Piece::Convex(convex), Some(proxy)) = (&collider.piece, collider.proxy) else { continue };
-            let tight = convex.aabb(&collider.world_from_collider);
-            // All that the body can reach within the step; twice as far when the box is made anew.
-            let way = body.velocity * self.dt;
-            let reach = self.tuning.speculative_distance + spin * self.dt;
-            if !collider.fat_aabb.contains(&ahead(&tight, way).grown(reach)) {
-                collider.fat_aabb = ahead(&tight, way * 2.0).grown(self.tuning.tree_margin + reach);
-                collider.moved = true;
+        let refit = Refit { bodies: &self.bodies, tuning: &self.tuning, dt: self.dt };
+        let (colliders, motions) = (self.colliders.as_mut_slice(), self.motions.as_mut_slice());
+        let plain = self.plain.as_mut_slice();
+        let chunk = colliders.len().div_ceil(self.scratch.len()).max(1);
+        match self.pool.as_ref().filter(|_| colliders.len() >= MANY_BODIES) {
+            None => refit.colliders(colliders, motions, plain),
+            Some(pool) => pool.install(|| {
+                let parts = colliders.par_chunks_mut(chunk).zip(motions.par_chunks_mut(chunk));
+                parts.zip(plain.par_chunks_mut(chunk)).for_each(|((colliders, motions), plain)| {
+                    refit.colliders(colliders, motions, plain);
+                });
+            }),
+        }
+    }
+
+    /// Boxes that colliders have left are replaced in the tree.
+    fn put_back_into_tree(&mut self) {
+        for (collider, _) in self.colliders.iter().zip(&self.motions).filter(|(_, motion)| motion.moved) {
+            if let Some(collider) = collider
+                && let Some(proxy) = collider.proxy
+                && self.tree.aabb(proxy) != &collider.fat_aabb
+            {
                 self.tree.update(proxy, collider.fat_aabb);
             }
         }
@@ -78,17 +74,18 @@ impl<const N: usize> World<N> {
     }
 
     fn drop_ended_pairs(&mut self) {
-        let colliders = &self.colliders;
-        if !colliders.iter().flatten().any(|collider| collider.moved) {
-            return;
+        for slot in 0..self.pairs.keys.len() {
+            let key = self.pairs.keys[slot];
+            let moved = |collider: u32| self.motions[collider as usize].moved;
+            if key == NONE || !(moved(key.0) || moved(key.1)) {
+                continue;
+            }
+            let colliders = (&self.colliders[key.0 as usize], &self.colliders[key.1 as usize]);
+            if !matches!(colliders, (Some(a), Some(b)) if boxes_meet(a, b)) {
+                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+                self.drop_pair(slot as u32);
+            }
         }
-        self.pairs.retain(|pair| {
-            let (Some(a), Some(b)) = (&colliders[pair.collider_a as usize], &colliders[pair.collider_b as usize])
-            else {
-                return false;
-            };
-            !(a.moved || b.moved) || boxes_meet(a, b)
-        });
     }
 
     fn find_new_pairs(&mut self) {
@@ -96,8 +93,8 @@ impl<const N: usize> World<N> {
         found.clear();
         near.bodies.clear();
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-        for (slot, collider) in self.colliders.iter().enumerate().map(|(s, c)| (s as u32, c)) {
-            let Some(collider) = collider.as_ref().filter(|collider| collider.moved) else { continue };
+        for slot in (0..self.motions.len()).filter(|&slot| self.motions[slot].moved).map(|slot| slot as u32) {
+            let Some(collider) = &self.colliders[slot as usize] else { continue };
             if collider.proxy.is_none() {
                 self.find_beside_half_space(slot, collider, &mut found);
                 continue;
@@ -148,7 +145,8 @@ impl<const N: usize> World<N> {
         near.boxes.clear();
         for &slot in self.bodies.at(body).map_or(&[][..], |body| &body.colliders) {
             let collider = self.colliders[slot as usize].as_ref();
-            let moved = collider.filter(|collider| collider.moved && collider.proxy.is_some());
+            let moved = self.motions[slot as usize].moved;
+            let moved = collider.filter(|collider| moved && collider.proxy.is_some());
             near.boxes.extend(moved.map(|collider| (slot, collider.fat_aabb)));
         }
         self.for_each_near(body, near, |slot, other| found.push((slot.min(other), slot.max(other))));
@@ -165,6 +163,56 @@ impl<const N: usize> World<N> {
         let surface = Surface::of(&body_a.material, &body_b.material);
         let role = PairRole::of(body_a, body_b);
         Some(Pair::new((collider_a, a.body), (collider_b, b.body), role, surface))
+    }
+}
+
+/// What moving colliders along reads.
+#[derive(Clone, Copy)]
+struct Refit<'a, const N: usize> {
+    bodies: &'a Arena<Body<N>, BodyHandle>,
+    tuning: &'a Tuning,
+    /// s.
+    dt: f64,
+}
+
+impl<const N: usize> Refit<'_, N> {
+    fn colliders(&self, colliders: &mut [Option<Collider<N>>], motions: &mut [Motion], plain: &mut [Plain<N>]) {
+        for ((collider, motion), plain) in colliders.iter_mut().zip(motions).zip(plain) {
+            let Some(collider) = collider else { continue };
+            let Some(body) = self.bodies.at(collider.body) else { continue };
+            motion.awake = body.is_awake();
+            motion.speed = if body.quarantined { f64::INFINITY } else { 0.0 };
+            if motion.awake || motion.moved {
+                self.collider(collider, motion, body);
+            }
+            motion.plain = plain.take(collider, body);
+        }
+    }
+
+    fn collider(&self, collider: &mut Collider<N>, motion: &mut Motion, body: &Body<N>) {
+        let spin = body.surface_speed_by_spin();
+        if motion.awake {
+            motion.speed = body.velocity.norm() + spin;
+        }
+        let pose = body.world_from_body() * collider.body_from_collider;
+        motion.way += match &collider.piece {
+            Piece::Convex(_) => moved(&collider.world_from_collider, &pose, collider.reach),
+            // Unbounded: wherever it turns, something is swept.
+            Piece::HalfSpace { .. } if pose != collider.world_from_collider => {
+                2.0 * self.tuning.recycle_distance + self.tuning.speculative_distance
+            }
+            Piece::HalfSpace { .. } => 0.0,
+        };
+        collider.world_from_collider = pose;
+        let Piece::Convex(convex) = &collider.piece else { return };
+        let tight = convex.aabb(&collider.world_from_collider);
+        // All that the body can reach within the step; twice as far when the box is made anew.
+        let way = body.velocity * self.dt;
+        let reach = self.tuning.speculative_distance + spin * self.dt;
+        if !collider.fat_aabb.contains(&ahead(&tight, way).grown(reach)) {
+            collider.fat_aabb = ahead(&tight, way * 2.0).grown(self.tuning.tree_margin + reach);
+            motion.moved = true;
+        }
     }
 }
 

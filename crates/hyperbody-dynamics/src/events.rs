@@ -1,16 +1,16 @@
 //! What happened in the last step: touches, what sensors noticed, sleep, broken joints.
 //!
-//! Lists are made at the end of each step and stand until the next one; their order depends on bodies and joints alone:
-//! contacts by their two bodies' slots, the rest by when it happened. Bodies of several pieces touch once, however many of
-//! their pieces do. Pairs of which both bodies sleep or cannot move keep their touch without a word, and cost nothing
-//! but a look.
+//! Lists are of the last step and stand until the next one; their order depends on bodies and joints alone: contacts by their
+//! two bodies' slots, the rest by when it happened. Bodies of several pieces touch once, however many of their pieces do. Pairs of
+//! which both bodies sleep or cannot move keep their touch without a word. The list of contacts is made when it is asked for
+//! (`meetings`).
+
+use std::sync::OnceLock;
 
 use hyperbody_math::{Bivector, Vector};
 
-use crate::body::Body;
-use crate::counting::Counting;
-use crate::pairs::Touch;
-use crate::{BodyHandle, BodyKind, JointHandle, World};
+use crate::meetings::Meetings;
+use crate::{BodyHandle, JointHandle, World};
 
 /// What a touch did in the last step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,20 +74,17 @@ pub struct BrokenJoint<const N: usize> {
 /// What happened in the last step.
 #[derive(Clone, Debug)]
 pub struct Events<const N: usize> {
-    pub(crate) contacts: Vec<ContactEvent<N>>,
+    /// Made when somebody asks.
+    pub(crate) contacts: OnceLock<Vec<ContactEvent<N>>>,
+    /// Whether somebody asked since the last step: then the next one makes the list itself.
+    pub(crate) asked: OnceLock<()>,
+    /// Whether there was nothing to do in the last step, or one is under way: no touch is told.
+    pub(crate) quiet: bool,
+    pub(crate) meetings: Meetings<N>,
     pub(crate) sensors: Vec<SensorEvent>,
     pub(crate) woken: Vec<BodyHandle>,
     pub(crate) slept: Vec<BodyHandle>,
     pub(crate) broken: Vec<BrokenJoint<N>>,
-    /// Who touches whom, ascending.
-    pub(crate) touching: Vec<(BodyHandle, BodyHandle)>,
-    /// Touches of the step, one for each pair of pieces: buffer.
-    pub(crate) found: Vec<ContactEvent<N>>,
-    /// The touches found, by their bodies.
-    pub(crate) order: Vec<u32>,
-    pub(crate) counting: Counting,
-    /// The next `touching`: buffer.
-    pub(crate) next: Vec<(BodyHandle, BodyHandle)>,
     /// What is in which sensor, by sensor and body ascending.
     pub(crate) inside: Vec<(BodyHandle, BodyHandle)>,
     /// The next `inside`: buffer.
@@ -97,24 +94,25 @@ pub struct Events<const N: usize> {
 impl<const N: usize> Events<N> {
     pub(crate) const fn new() -> Self {
         Self {
-            contacts: Vec::new(),
+            contacts: OnceLock::new(),
+            asked: OnceLock::new(),
+            quiet: true,
+            meetings: Meetings::new(),
             sensors: Vec::new(),
             woken: Vec::new(),
             slept: Vec::new(),
             broken: Vec::new(),
-            touching: Vec::new(),
-            found: Vec::new(),
-            order: Vec::new(),
-            counting: Counting::new(),
-            next: Vec::new(),
             inside: Vec::new(),
             noticed: Vec::new(),
         }
     }
 
-    /// Nothing happened; touches go on in silence.
+    /// Forgets the last step. If nothing happens now, touches go on in silence.
     pub(crate) fn forget_step(&mut self) {
-        self.contacts.clear();
+        self.quiet = true;
+        if let Some(contacts) = self.contacts.get_mut() {
+            contacts.clear();
+        }
         self.sensors.clear();
         self.woken.clear();
         self.slept.clear();
@@ -124,7 +122,7 @@ impl<const N: usize> Events<N> {
     /// Touches that began, stayed or ended.
     #[must_use]
     pub fn contacts(&self) -> &[ContactEvent<N>] {
-        &self.contacts
+        self.contacts.get().map_or(&[], Vec::as_slice)
     }
 
     /// What came into sensors and what left them, by sensor and body in the order of their slots. It is noticed at the start
@@ -154,9 +152,12 @@ impl<const N: usize> Events<N> {
 }
 
 impl<const N: usize> World<N> {
-    /// What happened in the last step. The lists stand until the next one.
+    /// What happened in the last step. The lists stand until the next one. That of contacts, the longest, is made when this is
+    /// called for the first time after a step; steps of worlds in which nobody asks do without.
     #[must_use]
     pub fn events(&self) -> &Events<N> {
+        self.events.asked.get_or_init(|| ());
+        self.list_contacts();
         &self.events
     }
 
@@ -170,8 +171,9 @@ impl<const N: usize> World<N> {
     /// Makes the lists of the step that just ended.
     pub(crate) fn collect_events(&mut self) {
         self.break_joints();
-        self.find_touches();
-        self.compare_touches();
+        self.settle_meetings();
+        self.tell_meetings();
+        self.notice_overlaps();
         self.compare_overlaps();
         let (bodies, events) = (&self.bodies, &mut self.events);
         events.woken.clear();
@@ -201,51 +203,14 @@ impl<const N: usize> World<N> {
         }
     }
 
-    /// Pairs of pieces that touch and of which one may move.
-    fn find_touches(&mut self) {
-        let mut found = std::mem::take(&mut self.events.found);
-        found.clear();
-        self.events.noticed.clear();
+    fn notice_overlaps(&mut self) {
+        let mut noticed = std::mem::take(&mut self.events.noticed);
+        noticed.clear();
         for pair in self.pairs.overlaps() {
-            self.events.noticed.extend(self.noticed_by(pair.body_a, pair.body_b));
-            self.events.noticed.extend(self.noticed_by(pair.body_b, pair.body_a));
+            noticed.extend(self.noticed_by(pair.body_a, pair.body_b));
+            noticed.extend(self.noticed_by(pair.body_b, pair.body_a));
         }
-        for (_, pair) in self.pairs.contacts() {
-            let Some(contact) = pair.contact.as_deref() else { continue };
-            let touches = |touch: &Touch<N>| touch.step_impulse > 0.0 || touch.point.separation <= 0.0;
-            let touching = contact.touches.iter().any(touches);
-            let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { continue };
-            if !touching || !(a.is_moving() || b.is_moving()) {
-                continue;
-            }
-            let handles = (self.bodies.handle_at(pair.body_a), self.bodies.handle_at(pair.body_b));
-            let (Some(handle_a), Some(handle_b)) = handles else { continue };
-            let (mut impulse, mut point) = (0.0, Vector::ZERO);
-            for touch in contact.touches.iter() {
-                let part = f64::from(touch.step_impulse);
-                impulse += part;
-                point += touch.point.position * part;
-            }
-            let pressed = impulse > 0.0;
-            let first = contact.touches.first().map_or(Vector::ZERO, |touch| touch.point.position);
-            let swap = handle_b.index < handle_a.index;
-            found.push(ContactEvent {
-                bodies: if swap { (handle_b, handle_a) } else { (handle_a, handle_b) },
-                phase: ContactPhase::Begin,
-                impulse,
-                point: if pressed { point * (1.0 / impulse) } else { first },
-                normal: if swap { -contact.normal } else { contact.normal },
-            });
-        }
-        // Pieces of the same two bodies keep the order of their pairs. What is sorted is small beside the events.
-        let Events { order, counting, .. } = &mut self.events;
-        order.clear();
-        #[expect(clippy::cast_possible_truncation, reason = "fewer pairs than fit into memory")]
-        order.extend(0..found.len() as u32);
-        let slots = self.bodies.slot_count();
-        counting.sort(order, slots, |touch| found[touch as usize].bodies.1.index as usize);
-        counting.sort(order, slots, |touch| found[touch as usize].bodies.0.index as usize);
-        self.events.found = found;
+        self.events.noticed = noticed;
     }
 
     /// Sensor and body, if the first of two that overlap is a sensor.
@@ -273,69 +238,4 @@ impl<const N: usize> World<N> {
         sensors.extend(before.map(|left| event(left, SensorPhase::Leave)));
         std::mem::swap(inside, noticed);
     }
-
-    /// Touches of this step beside those of the last one.
-    fn compare_touches(&mut self) {
-        let Events { contacts, touching, found, order, next, .. } = &mut self.events;
-        let bodies = &self.bodies;
-        contacts.clear();
-        next.clear();
-        let mut before = touching.iter().copied().peekable();
-        let end = |pair: (BodyHandle, BodyHandle), next: &mut Vec<_>, contacts: &mut Vec<_>| {
-            let asleep = |handle| {
-                bodies.get(handle).is_some_and(|body: &Body<N>| body.kind == BodyKind::Dynamic && !body.is_moving())
-            };
-            let still = |handle| bodies.get(handle).is_some_and(|body: &Body<N>| !body.is_moving());
-            // Two bodies that nothing moves, since one was made static, touch no more.
-            if still(pair.0) && still(pair.1) && (asleep(pair.0) || asleep(pair.1)) {
-                next.push(pair);
-            } else {
-                let (point, normal) = (Vector::ZERO, Vector::ZERO);
-                contacts.push(ContactEvent { bodies: pair, phase: ContactPhase::End, impulse: 0.0, point, normal });
-            }
-        };
-        for touches in order.chunk_by(|&a, &b| found[a as usize].bodies == found[b as usize].bodies) {
-            let mut touches = touches.iter().map(|&touch| &found[touch as usize]);
-            let Some(first) = touches.next() else { continue };
-            let pair = first.bodies;
-            while let Some(ended) = before.next_if(|&other| other < pair) {
-                end(ended, next, contacts);
-            }
-            let stays = before.next_if_eq(&pair).is_some();
-            let mut event = merged(first, touches);
-            if stays {
-                event.phase = ContactPhase::Stay;
-            }
-            contacts.push(event);
-            next.push(pair);
-        }
-        for ended in before {
-            end(ended, next, contacts);
-        }
-        std::mem::swap(touching, next);
-    }
-}
-
-/// The touches of the pieces of two bodies as one.
-fn merged<'a, const N: usize>(
-    first: &ContactEvent<N>,
-    others: impl Iterator<Item = &'a ContactEvent<N>>,
-) -> ContactEvent<N> {
-    let mut event = *first;
-    let mut most = event.impulse;
-    let mut weighted = event.point * event.impulse;
-    let mut alone = true;
-    for touch in others {
-        alone = false;
-        event.impulse += touch.impulse;
-        weighted += touch.point * touch.impulse;
-        if touch.impulse > most {
-            most = touch.impulse;
-            event.normal = touch.normal;
-        }
-    }
-    if !alone && event.impulse > 0.0 {
-        event.point = weighted * (1.0 / event.impulse);
-    }
-    event
 }

@@ -62,6 +62,10 @@ impl Islands {
         true
     }
 
+    pub(crate) fn anyone_sleeps(&self) -> bool {
+        self.free.len() < self.sleeping.len()
+    }
+
     /// Sleeping islands, free ones included.
     pub(crate) fn count(&self) -> usize {
         self.sleeping.len()

@@ -45,6 +45,7 @@ mod islands;
 pub mod joint;
 pub mod material;
 mod measure;
+mod meetings;
 mod narrow_phase;
 mod near;
 mod pairs;

@@ -10,7 +10,7 @@ use crate::ahead::{IS_HEARD, fetch};
 use crate::balls::Plain;
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::{Contact, Pair, PairRole, Touch, Touches, fetch_contacts};
+use crate::pairs::{Contact, Meeting, Pair, PairRole, Touch, Touches, fetch_contacts};
 use crate::rules::Hook;
 use crate::seams::{SLIDES, is_suspect};
 use crate::wandering::share_of_b;
@@ -221,6 +221,9 @@ impl<const N: usize> Update<'_, N> {
             return self.sense(pair, a.way + b.way, scratch);
         }
         // Written where it changes: of most pairs a step only reads.
+        if pair.met != (pair.meeting != Meeting::Apart) {
+            pair.met = !pair.met;
+        }
         if pair.suspect {
             pair.suspect = false;
         }

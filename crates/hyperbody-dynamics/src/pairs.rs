@@ -1,9 +1,10 @@
 //! Pairs of colliders whose boxes overlap, with what each remembers from step to step.
 //!
-//! Pairs live in slots; a slot is found from its two colliders through an ordered map, which is only looked up and
+//! Pairs live in slots; a slot is found from its two colliders through a map, which is only looked up and
 //! never walked, and the step walks slots in order. So the order of contacts depends on the calls alone.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
+use std::hash::BuildHasherDefault;
 
 use hyperbody_collision::PairCache;
 use hyperbody_math::{Bivector, Pose, Vector};
@@ -11,9 +12,10 @@ use hyperbody_math::{Bivector, Pose, Vector};
 use crate::Material;
 use crate::ahead::{IS_HEARD, fetch, fetch_all};
 use crate::body::Body;
+use crate::hash::KeyHasher;
 pub(crate) use crate::touches::{Anchors, Touch, Touches};
 
-/// What pairs of numbers are sorted by: the first, then the second. One function for worlds of all dimensions, so that sorting
+/// What pairs of numbers are sorted and found by: the first, then the second. One function for worlds of all dimensions, so that sorting
 /// by it is compiled once.
 pub(crate) fn in_order(&(a, b): &(u32, u32)) -> u64 {
     u64::from(a) << 32 | u64::from(b)
@@ -68,6 +70,17 @@ pub(crate) enum Passage {
     Passing,
 }
 
+/// How the bodies of a pair met in the last step, as events tell it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Meeting {
+    /// They did not touch, or nothing can move them.
+    Apart,
+    /// They touched, and one of them may move.
+    Touching,
+    /// They touched when they fell asleep, and have not moved since.
+    Asleep,
+}
+
 /// Two colliders that may touch: what every step looks at. Of the many pairs that are near each other few touch, and of
 /// those that touch few have moved; what the others need stands apart, so that passing by costs one line of cache.
 #[derive(Clone, Debug)]
@@ -96,6 +109,9 @@ pub(crate) struct Pair<const N: usize> {
     pub(crate) round: bool,
     /// Whether its contact approaches, as ghosts at seams do.
     pub(crate) suspect: bool,
+    pub(crate) meeting: Meeting,
+    /// Whether they met in the step before.
+    pub(crate) met: bool,
     /// Of one-way bodies.
     pub(crate) passage: Passage,
     pub(crate) search: Box<Search<N>>,
@@ -185,6 +201,8 @@ impl<const N: usize> Pair<N> {
             overlaps: false,
             round: false,
             suspect: false,
+            meeting: Meeting::Apart,
+            met: false,
             passage: Passage::Apart,
             search: Box::new(Search { a_from_b: None, cache: PairCache::default() }),
             contact: None,
@@ -195,10 +213,11 @@ impl<const N: usize> Pair<N> {
         Surface { bounces: self.bounces, resists: self.resists }
     }
 
-    /// Forgets contact and impulses, as if the two had never met.
+    /// Forgets contact and impulses, as if the two had never met; events still have to tell what came of their touch.
     pub(crate) fn forget(&mut self) {
         let surface = self.surface();
-        *self = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.role, surface);
+        let new = Self::new((self.collider_a, self.body_a), (self.collider_b, self.body_b), self.role, surface);
+        *self = Self { meeting: self.meeting, met: self.met, ..new };
     }
 
     /// The touching points; none where the two have not met.
@@ -223,6 +242,9 @@ impl<const N: usize> Pair<N> {
         #[expect(clippy::cast_possible_truncation, reason = "at most MAX_POINTS")]
         let points = self.touches().len() as u8;
         (self.deepest, self.touching, self.points) = (deepest, touching, points);
+        if points == 0 && self.meeting == Meeting::Touching {
+            self.meeting = Meeting::Apart;
+        }
     }
 }
 
@@ -253,53 +275,55 @@ pub(crate) fn fetch_contacts<const N: usize>(slots: &[Option<Pair<N>>], slot: us
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs<const N: usize> {
     pub(crate) slots: Vec<Option<Pair<N>>>,
+    /// By slot: its colliders once more, side by side, for walks that ask for nothing else; [`NONE`] where there is no pair.
+    pub(crate) keys: Vec<(u32, u32)>,
     pub(crate) free: Vec<u32>,
-    pub(crate) slot_of: BTreeMap<(u32, u32), u32>,
+    pub(crate) slot_of: HashMap<u64, u32, BuildHasherDefault<KeyHasher>>,
     /// Slots of the pairs with points, and of those of sensors that overlap, ascending: found by the narrow phase, for the stages
     /// after it.
     pub(crate) contacts: Vec<u32>,
     pub(crate) overlaps: Vec<u32>,
 }
 
+/// The key of an empty slot.
+pub(crate) const NONE: (u32, u32) = (u32::MAX, u32::MAX);
+
 impl<const N: usize> Pairs<N> {
-    pub(crate) const fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             slots: Vec::new(),
+            keys: Vec::new(),
             free: Vec::new(),
-            slot_of: BTreeMap::new(),
+            slot_of: HashMap::default(),
             contacts: Vec::new(),
             overlaps: Vec::new(),
         }
     }
 
     pub(crate) fn contains(&self, collider_a: u32, collider_b: u32) -> bool {
-        self.slot_of.contains_key(&(collider_a, collider_b))
+        self.slot_of.contains_key(&in_order(&(collider_a, collider_b)))
     }
 
     pub(crate) fn insert(&mut self, pair: Pair<N>) {
         let key = (pair.collider_a, pair.collider_b);
         let slot = self.free.pop().unwrap_or_else(|| {
             self.slots.push(None);
+            self.keys.push(NONE);
             #[expect(clippy::cast_possible_truncation, reason = "fewer pairs than fit into memory")]
             let last = (self.slots.len() - 1) as u32;
             last
         });
         self.slots[slot as usize] = Some(pair);
-        self.slot_of.insert(key, slot);
+        self.keys[slot as usize] = key;
+        self.slot_of.insert(in_order(&key), slot);
     }
 
-    /// Removes the pairs for which `keep` is false.
-    pub(crate) fn retain(&mut self, mut keep: impl FnMut(&Pair<N>) -> bool) {
-        for (index, slot) in self.slots.iter_mut().enumerate() {
-            if let Some(pair) = slot
-                && !keep(pair)
-            {
-                self.slot_of.remove(&(pair.collider_a, pair.collider_b));
-                *slot = None;
-                #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-                self.free.push(index as u32);
-            }
-        }
+    pub(crate) fn remove(&mut self, slot: u32) -> Option<Pair<N>> {
+        let pair = self.slots[slot as usize].take()?;
+        self.keys[slot as usize] = NONE;
+        self.slot_of.remove(&in_order(&(pair.collider_a, pair.collider_b)));
+        self.free.push(slot);
+        Some(pair)
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Pair<N>> {
@@ -323,7 +347,7 @@ impl<const N: usize> Pairs<N> {
 
     /// The pair of two colliders, a < b.
     pub(crate) fn of(&self, collider_a: u32, collider_b: u32) -> Option<&Pair<N>> {
-        self.get(*self.slot_of.get(&(collider_a, collider_b))?)
+        self.get(*self.slot_of.get(&in_order(&(collider_a, collider_b)))?)
     }
 
     pub(crate) fn get(&self, slot: u32) -> Option<&Pair<N>> {

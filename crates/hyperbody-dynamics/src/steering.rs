@@ -2,6 +2,7 @@
 
 use hyperbody_math::{Bivector, Pose, Rotation, Vector};
 
+use crate::body::Body;
 use crate::vetting::in_bounds;
 use crate::world::{out_of_bounds, stale};
 use crate::{BodyHandle, BodyKind, World, WorldError, WorldErrorKind};
@@ -50,7 +51,8 @@ impl<const N: usize> World<N> {
 
     /// Stops kinematic bodies that were led to a pose and are not led on.
     pub(crate) fn stop_arrived(&mut self) {
-        for body in self.bodies.values_mut().filter(|body| body.arrived) {
+        let arrived = |body: &&mut Body<N>| body.kind == BodyKind::Kinematic && body.arrived;
+        for body in self.bodies.values_mut().filter(arrived) {
             body.arrived = false;
             if body.led_to.is_none() {
                 body.velocity = Vector::ZERO;

@@ -8,8 +8,8 @@ impl<const N: usize> World<N> {
     /// Moves the world on by one [`World::dt`]. Never panics: a body whose state turns non-finite is put into
     /// quarantine and the rest goes on.
     pub fn step(&mut self) {
+        self.events.forget_step();
         if self.is_at_rest() {
-            self.events.forget_step();
             self.step_count += 1;
             self.timings = StageTimings::default();
             return;
@@ -52,7 +52,7 @@ impl<const N: usize> World<N> {
         self.wake_requests.is_empty()
             && self.islands.nothing_changed()
             && self.bodies.values().all(still)
-            && !self.colliders.iter().flatten().any(|collider| collider.moved)
+            && !self.motions.iter().any(|motion| motion.moved)
     }
 
     fn solve(&mut self) {

@@ -3,6 +3,9 @@
 //! A browser's module has none. There a pool is a type without values, so that the compiler knows that nothing is ever done
 //! with one: work for several threads, which is a second copy of the longest functions, is not in the module at all.
 
+/// Bodies from which what is done for each of them alone is worth another thread's while.
+pub(crate) const MANY_BODIES: usize = 500;
+
 #[cfg(not(target_family = "wasm"))]
 #[derive(Debug)]
 pub(crate) struct Pool(rayon::ThreadPool);

@@ -19,7 +19,7 @@ impl<const N: usize> World<N> {
         for slot in 0..self.bodies.slot_count() {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             let slot = slot as u32;
-            let Some(body) = self.bodies.at_mut(slot).filter(|body| body.is_awake()) else { continue };
+            let Some(body) = self.bodies.at_mut(slot).filter(|body| body.is_awake() && !body.vetted) else { continue };
             if limit(body, &self.tuning, self.dt) && body.state_is_sound() {
                 continue;
             }
@@ -44,6 +44,14 @@ impl<const N: usize> World<N> {
             limit(body, &self.tuning, self.dt);
         }
     }
+}
+
+/// Whether vetting would change nothing of a sound body whose pushes have been spent, as long as nobody touches it.
+pub(crate) fn is_within_limits<const N: usize>(body: &Body<N>, tuning: &Tuning) -> bool {
+    body.velocity.norm_sq() < tuning.max_speed * tuning.max_speed
+        && body.angular_velocity.norm_sq() < tuning.max_spin * tuning.max_spin
+        && body.steady_force == Vector::ZERO
+        && body.steady_torque == Bivector::ZERO
 }
 
 pub(crate) fn in_bounds<const N: usize>(position: Vector<N>) -> bool {

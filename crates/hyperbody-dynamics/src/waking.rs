@@ -4,7 +4,7 @@
 
 use crate::body::Body;
 use crate::narrow_phase::velocity_near;
-use crate::pairs::{Pair, PairRole, Pairs, Touch};
+use crate::pairs::{Pair, PairRole, Touch};
 use crate::{BodyKind, World};
 
 impl<const N: usize> World<N> {
@@ -26,10 +26,8 @@ impl<const N: usize> World<N> {
             }
             let Some(body) = self.bodies.at(slot) else { continue };
             for &collider in &body.colliders {
-                if let Some(collider) = &mut self.colliders[collider as usize] {
-                    // A teleported body must be looked at, static ones too.
-                    collider.moved = true;
-                }
+                // A teleported body must be looked at, static ones too.
+                self.motions[collider as usize].moved = true;
             }
         }
         requests.clear();
@@ -39,13 +37,12 @@ impl<const N: usize> World<N> {
     /// Drops the pairs of a body that are no longer allowed or have become of another kind; the broad phase finds anew what
     /// is to stay.
     fn drop_forbidden_pairs(&mut self, slot: u32) {
-        let mut pairs = std::mem::replace(&mut self.pairs, Pairs::new());
-        pairs.retain(|pair| {
-            let (Some(a), Some(b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b)) else { return false };
+        self.drop_pairs(|world, pair| {
+            let bodies = (world.bodies.at(pair.body_a), world.bodies.at(pair.body_b));
+            let (Some(a), Some(b)) = bodies else { return false };
             let asked = pair.body_a == slot || pair.body_b == slot;
-            !asked || (self.may_pair(pair.body_a, pair.body_b) && pair.role == PairRole::of(a, b))
+            !asked || (world.may_pair(pair.body_a, pair.body_b) && pair.role == PairRole::of(a, b))
         });
-        self.pairs = pairs;
     }
 
     /// Wakes what lies beside a body that was moved by hand: it may have been its support.
@@ -77,7 +74,7 @@ impl<const N: usize> World<N> {
 
     /// Wakes sleepers that something awake touches or is jointed to, until none is left.
     pub(crate) fn wake_touched(&mut self) {
-        if !self.bodies.values().any(|body| body.asleep_in.is_some()) {
+        if !self.islands.anyone_sleeps() {
             return;
         }
         // Each round wakes at least one island or is the last.

@@ -11,6 +11,7 @@ use crate::continuous::{Continuous, PieceCore};
 use crate::events::Events;
 use crate::filter::IgnoredPairs;
 use crate::handle::Arena;
+use crate::integrate::Integrated;
 use crate::islands::Islands;
 use crate::joint::Joint;
 use crate::narrow_phase::Found;
@@ -75,8 +76,6 @@ pub(crate) struct Collider<const N: usize> {
     pub(crate) proxy: Option<u32>,
     /// The fattened box that the tree holds.
     pub(crate) fat_aabb: Aabb<N>,
-    /// Its pairs must be looked for: new, or out of its fattened box.
-    pub(crate) moved: bool,
 }
 
 impl<const N: usize> Collider<N> {
@@ -100,6 +99,8 @@ pub(crate) struct Motion {
     pub(crate) awake: bool,
     /// Whether it is a ball or a half-space, and stands in `World::plain` as it is in this step.
     pub(crate) plain: bool,
+    /// Whether its pairs must be looked for: it is new, or out of its fattened box.
+    pub(crate) moved: bool,
 }
 
 /// Bodies, joints, and the law that moves them, in `N` dimensions.
@@ -142,6 +143,7 @@ pub struct World<const N: usize> {
     pub(crate) scratch: Vec<Scratch<N>>,
     /// One a thread.
     pub(crate) found: Vec<Found>,
+    pub(crate) integrated: Vec<Integrated>,
     /// Buffers of the search for neighbours.
     pub(crate) near: Near<N>,
     pub(crate) seams: Seams<N>,
@@ -216,6 +218,7 @@ impl<const N: usize> World<N> {
             solver: Solver::new(),
             scratch: (0..def.threads).map(|_| Scratch::default()).collect(),
             found: (0..def.threads).map(|_| Found::default()).collect(),
+            integrated: (0..def.threads).map(|_| Integrated::default()).collect(),
             near: Near::default(),
             seams: Seams::default(),
             continuous: Continuous::default(),
@@ -241,7 +244,7 @@ impl<const N: usize> World<N> {
         let Some(body) = self.bodies.at_mut(body_slot) else { return };
         let slot = self.free_colliders.pop().unwrap_or_else(|| {
             self.colliders.push(None);
-            self.motions.push(Motion { way: 0.0, speed: 0.0, awake: false, plain: false });
+            self.motions.push(Motion { way: 0.0, speed: 0.0, awake: false, plain: false, moved: true });
             #[expect(clippy::cast_possible_truncation, reason = "fewer colliders than fit into memory")]
             let last = (self.colliders.len() - 1) as u32;
             last
@@ -274,8 +277,8 @@ impl<const N: usize> World<N> {
             core,
             proxy,
             fat_aabb,
-            moved: true,
         });
+        self.motions[slot as usize].moved = true;
     }
 
     /// Removes a body with its joints and contacts; what rested on it wakes.
@@ -305,12 +308,13 @@ impl<const N: usize> World<N> {
                 self.wake_requests.push(partner);
             }
         }
-        self.pairs.retain(|pair| pair.body_a != slot && pair.body_b != slot);
+        self.drop_pairs(|_, pair| pair.body_a != slot && pair.body_b != slot);
         self.islands.wake_body(slot, &mut self.bodies);
     }
 
     pub(crate) fn remove_colliders(&mut self, slots: Vec<u32>) {
         for slot in slots {
+            self.motions[slot as usize].moved = false;
             if let Some(collider) = self.colliders[slot as usize].take() {
                 match collider.proxy {
                     Some(proxy) => self.tree.remove(proxy),
@@ -331,6 +335,7 @@ impl<const N: usize> World<N> {
     #[must_use]
     pub fn body_mut(&mut self, handle: BodyHandle) -> Option<BodyMut<'_, N>> {
         let body = self.bodies.get_mut(handle)?;
+        body.vetted = false;
         let (wake, quarantined) = (&mut self.wake_requests, &mut self.quarantined);
         Some(BodyMut { body, wake, quarantined, slot: handle.index })
     }

@@ -209,7 +209,7 @@ impl<const N: usize> Bivector<N> {
     /// Whether every number is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.m.iter().all(|row| row.iter().all(|c| c.is_finite()))
+        self.to_matrix().is_finite()
     }
 }
 

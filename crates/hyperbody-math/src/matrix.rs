@@ -104,7 +104,8 @@ impl<const N: usize> Matrix<N> {
     /// Whether every entry is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.0.iter().all(|row| Vector(*row).is_finite())
+        // All of them, at once, instead of one after the other up to the first that is not.
+        self.0.as_flattened().iter().fold(true, |all, entry| all & entry.is_finite())
     }
 
     /// The determinant, by elimination with partial pivoting.

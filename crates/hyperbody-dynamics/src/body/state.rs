@@ -80,11 +80,12 @@ impl<const N: usize> Inertia<N> {
 #[repr(C)]
 pub(crate) struct Body<const N: usize> {
     pub(crate) kind: BodyKind,
-    pub(crate) sensor: bool,
     /// Whether it is one ball about its centre of mass, whose surface stays as it is when it turns.
     pub(crate) is_ball: bool,
     /// Its state turned non-finite; it stays where it last was, out of the simulation.
     pub(crate) quarantined: bool,
+    /// Nobody touched it since the last step, which left it sound and within the limits.
+    pub(crate) vetted: bool,
     /// The sleeping island that it belongs to.
     pub(crate) asleep_in: Option<u32>,
     /// Row of this step's solver, 0 for bodies that no impulse moves.
@@ -135,6 +136,7 @@ pub(crate) struct Body<const N: usize> {
     /// Whom it meets, or how, was changed since the last step.
     pub(crate) refilter: bool,
     pub(crate) contact_hook: bool,
+    pub(crate) sensor: bool,
     pub(crate) groups: Groups,
 
     pub(crate) shape: Shape<N>,
@@ -221,6 +223,7 @@ impl<const N: usize> Body<N> {
             strayed: (Vector::ZERO, Bivector::ZERO),
             asleep_in: None,
             quarantined: false,
+            vetted: false,
             solver_index: 0,
             shape: def.shape,
         })
@@ -285,15 +288,18 @@ impl<const N: usize> Body<N> {
         }
     }
 
-    /// Finite, and within [`crate::POSITION_LIMIT`].
+    /// Finite, and within [`crate::POSITION_LIMIT`], pushes included.
     pub(crate) fn state_is_sound(&self) -> bool {
+        self.motion_is_sound() && self.force.is_finite() && self.torque.is_finite()
+    }
+
+    /// Finite, and within [`crate::POSITION_LIMIT`].
+    pub(crate) fn motion_is_sound(&self) -> bool {
         in_bounds(self.centre)
             && self.velocity.is_finite()
             && self.rotation.matrix().is_finite()
             && self.angular_momentum.is_finite()
             && self.angular_velocity.is_finite()
-            && self.force.is_finite()
-            && self.torque.is_finite()
     }
 
     /// Ends being led from pose to pose; true if the body's velocities came from that.

@@ -97,17 +97,9 @@ impl<const N: usize> World<N> {
         self.continuous = work;
     }
 
-    /// The ways of dynamic bodies that went far, and of kinematic ones that moved by more than contacts look ahead.
+    /// The ways of bodies that went far.
     fn find_sweeps(&self, work: &mut Continuous<N>) {
         work.sweeps.clear();
-        let reach = self.tuning.speculative_distance;
-        for (handle, body) in self.bodies.iter().filter(|(_, body)| body.kind == BodyKind::Kinematic && body.drifts()) {
-            let speed = body.velocity.norm() + body.angular_velocity.norm() * body.radius;
-            if speed * self.dt > reach {
-                work.fast.push(handle.index);
-            }
-        }
-        work.fast.sort_unstable();
         for &slot in &work.fast {
             work.sweeps.extend(self.sweep_of(slot));
         }
@@ -255,6 +247,7 @@ impl<const N: usize> World<N> {
             };
             (body.centre, body.rotation) = sweep.place();
             body.refresh_angular_velocity();
+            body.vetted = false;
         }
     }
 }

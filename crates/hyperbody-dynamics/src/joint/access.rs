@@ -92,7 +92,7 @@ impl<const N: usize> World<N> {
             }
         }
         if !collide {
-            self.pairs.retain(|pair| !is_pair_of(pair.body_a, pair.body_b, end_a.0, end_b.0));
+            self.drop_pairs(|_, pair| !is_pair_of(pair.body_a, pair.body_b, end_a.0, end_b.0));
         }
         Ok(handle)
     }
@@ -107,9 +107,7 @@ impl<const N: usize> World<N> {
             let Some(body) = self.bodies.at_mut(slot) else { continue };
             body.joints.retain(|&other| other != handle.index);
             for &collider in &body.colliders {
-                if let Some(collider) = &mut self.colliders[collider as usize] {
-                    collider.moved = true;
-                }
+                self.motions[collider as usize].moved = true;
             }
             if body.kind == BodyKind::Dynamic {
                 self.wake_requests.push(slot);
@@ -201,7 +199,7 @@ impl<const N: usize> World<N> {
             *joint = new;
         }
         match collides {
-            (true, false) => self.pairs.retain(|pair| !is_pair_of(pair.body_a, pair.body_b, a, b)),
+            (true, false) => self.drop_pairs(|_, pair| !is_pair_of(pair.body_a, pair.body_b, a, b)),
             (false, true) => self.look_again(b),
             _ => {}
         }
@@ -219,9 +217,7 @@ impl<const N: usize> World<N> {
     fn look_again(&mut self, body: u32) {
         let Some(body) = self.bodies.at(body) else { return };
         for &collider in &body.colliders {
-            if let Some(collider) = &mut self.colliders[collider as usize] {
-                collider.moved = true;
-            }
+            self.motions[collider as usize].moved = true;
         }
     }
 

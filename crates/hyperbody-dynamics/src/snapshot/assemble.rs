@@ -84,7 +84,7 @@ impl<const N: usize> Snapshot<N> {
         for ((body_from_collider, piece), &slot) in pieces.into_iter().zip(&body.colliders) {
             let wrong = |what: &str| SnapshotError::bad_state(format!("collider {slot} of body {body_slot} {what}"));
             let place = placed.get_mut(slot as usize).and_then(Option::take);
-            let Placed { world_from_collider, proxy, moved } =
+            let Placed { world_from_collider, proxy } =
                 place.ok_or_else(|| wrong("is not there, or another body's"))?;
             let core = PieceCore::of(&piece);
             body.core_radius = body.core_radius.min(core.radius);
@@ -111,7 +111,6 @@ impl<const N: usize> Snapshot<N> {
                 core,
                 proxy,
                 fat_aabb,
-                moved,
             });
         }
         self.half_spaces.sort_unstable();

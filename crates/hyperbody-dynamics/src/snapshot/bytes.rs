@@ -41,7 +41,7 @@ use super::Snapshot;
 pub const MAGIC: [u8; 8] = *b"HBSNAP\r\n";
 
 /// Version of the form that is written. Readers take this one only: the state is that of the engine's inside, which changes.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// Bytes before the state.
 const HEADER: usize = 24;
@@ -105,10 +105,9 @@ impl From<BytesError> for SnapshotError {
 pub(super) struct Placed<const N: usize> {
     pub(super) world_from_collider: Pose<N>,
     pub(super) proxy: Option<u32>,
-    pub(super) moved: bool,
 }
 
-hyperbody_geometry::stored!(Placed<N> { world_from_collider, proxy, moved });
+hyperbody_geometry::stored!(Placed<N> { world_from_collider, proxy });
 
 /// The dimension of the world whose snapshot these bytes are, to know which [`Snapshot`] to read.
 ///
@@ -230,11 +229,9 @@ impl<const N: usize> Snapshot<N> {
         self.joints.write(out);
         out.length(self.colliders.len());
         for collider in &self.colliders {
-            let placed = collider.as_ref().map(|collider| Placed {
-                world_from_collider: collider.world_from_collider,
-                proxy: collider.proxy,
-                moved: collider.moved,
-            });
+            let placed = collider
+                .as_ref()
+                .map(|collider| Placed { world_from_collider: collider.world_from_collider, proxy: collider.proxy });
             placed.write(out);
         }
         self.motions.write(out);

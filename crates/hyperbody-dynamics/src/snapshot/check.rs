@@ -100,10 +100,8 @@ impl<const N: usize> Snapshot<N> {
                 return Err(SnapshotError::bad_state(format!("body {} is not in quarantine", handle.index)));
             }
         }
-        for list in [&self.events.touching, &self.events.inside] {
-            if !list.is_sorted_by(|a, b| a < b) {
-                return Err(SnapshotError::bad_state("what touches or is inside is out of order"));
-            }
+        if !self.events.inside.is_sorted_by(|a, b| a < b) {
+            return Err(SnapshotError::bad_state("what is inside sensors is out of order"));
         }
         if self.max_penetration < 0.0 {
             return Err(SnapshotError::bad_state(format!("the deepest overlap is {} m", self.max_penetration)));

@@ -8,13 +8,14 @@ use hyperbody_math::{Bivector, Vector};
 
 use crate::BodyKind;
 use crate::body::{Body, Inertia};
-use crate::events::{BrokenJoint, ContactEvent, ContactPhase, Events, SensorEvent, SensorPhase};
+use crate::events::{BrokenJoint, Events, SensorEvent, SensorPhase};
 use crate::filter::{Groups, IgnoredPairs};
 use crate::handle::{Arena, BodyHandle, Handle, JointHandle, Slot};
 use crate::islands::Islands;
 use crate::joint::{Coupling, Freedom, Joint, JointDef, Motor, Spring, WORLD};
 use crate::material::{CombineRule, Material};
-use crate::pairs::{Anchors, Contact, Pair, PairRole, Pairs, Passage, Search, Touch, Touches};
+use crate::meetings::Meetings;
+use crate::pairs::{Anchors, Contact, Meeting, NONE, Pair, PairRole, Pairs, Passage, Search, Touch, Touches, in_order};
 use crate::tuning::Tuning;
 use crate::world::Motion;
 
@@ -89,9 +90,10 @@ stored!(Body<N> {
     strayed,
     asleep_in,
     quarantined,
+    vetted: unset,
     solver_index: unset,
 });
-stored!(Motion { way: wide, speed: wide, awake, plain: unset });
+stored!(Motion { way: wide, speed: wide, awake, plain: unset, moved });
 
 stored!(Motor { speed, max_force: wide });
 stored!(Spring { target, hz, damping_ratio, max_force: wide });
@@ -170,22 +172,19 @@ impl<const N: usize> Stored for Joint<N> {
     }
 }
 
-stored_choice!(ContactPhase { Begin = 0, Stay = 1, End = 2 });
 stored_choice!(SensorPhase { Enter = 0, Leave = 1 });
-stored!(ContactEvent<N> { bodies, phase, impulse, point, normal });
 stored!(SensorEvent { sensor, other, phase });
 stored!(BrokenJoint<N> { joint, bodies, force, torque });
+stored!(Meetings<N> { dropped, gone, found: unset, order: unset, counting: unset });
 stored!(Events<N> {
-    contacts,
+    contacts: unset,
+    asked: unset,
+    quiet,
+    meetings,
     sensors,
     woken,
     slept,
     broken,
-    touching,
-    found: unset,
-    order: unset,
-    counting: unset,
-    next: unset,
     inside,
     noticed: unset,
 });
@@ -207,6 +206,7 @@ impl Stored for IgnoredPairs {
 }
 
 stored_choice!(PairRole { Solid = 0, Ruled = 1, Sensor = 2 });
+stored_choice!(Meeting { Apart = 0, Touching = 1, Asleep = 2 });
 stored_choice!(Passage { Apart = 0, Held = 1, Passing = 2 });
 stored!(Search<N> { a_from_b, cache });
 stored!(Pair<N> {
@@ -224,6 +224,8 @@ stored!(Pair<N> {
     overlaps,
     suspect,
     round,
+    meeting,
+    met,
     passage,
     search,
     contact,
@@ -343,10 +345,12 @@ impl<const N: usize> Stored for Pairs<N> {
         let mut pairs = Self { slots: Stored::read(from)?, free: Stored::read(from)?, ..Self::new() };
         let taken: Vec<bool> = pairs.slots.iter().map(Option::is_some).collect();
         check_free(&pairs.free, &taken, from)?;
+        pairs.keys.resize(pairs.slots.len(), NONE);
         for (slot, pair) in pairs.slots.iter().enumerate() {
             let Some(pair) = pair else { continue };
             let key = (pair.collider_a, pair.collider_b);
-            if key.0 >= key.1 || pairs.slot_of.insert(key, slot as u32).is_some() {
+            pairs.keys[slot] = key;
+            if key.0 >= key.1 || pairs.slot_of.insert(in_order(&key), slot as u32).is_some() {
                 return Err(from.error(format!("the pair of colliders {key:?} is out of order, or there twice")));
             }
         }

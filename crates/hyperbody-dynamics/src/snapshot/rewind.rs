@@ -179,17 +179,19 @@ impl<const N: usize> World<N> {
                 .map(|joint| of(&joint.rows) + of(&joint.impulses) + of(&joint.def.planes))
                 .sum::<usize>();
         let colliders = of(&self.colliders) + of(&self.motions) + self.tree.memory();
-        let in_maps = self.pairs.slot_of.len() * size_of::<((u32, u32), u32)>() + self.ignored.0.len() * 8;
+        // With a byte beside each place, of which an eighth at least stays empty.
+        let in_map = self.pairs.slot_of.capacity() * 8 / 7 * (size_of::<(u64, u32)>() + 1);
         let met = self.pairs.slots.iter().flatten().map(Pair::memory).sum::<usize>();
-        let lists = of(&self.pairs.free) + of(&self.pairs.contacts) + of(&self.pairs.overlaps);
-        let pairs = of(&self.pairs.slots) + met + lists + in_maps * 3 / 2;
+        let lists = of(&self.pairs.keys) + of(&self.pairs.free) + of(&self.pairs.contacts) + of(&self.pairs.overlaps);
+        let pairs = of(&self.pairs.slots) + met + lists + in_map;
+        let ignored = self.ignored.0.len() * size_of::<(u32, u32)>() * 3 / 2;
         let (islands, events) = (&self.islands, &self.events);
         let asleep = of(&islands.sleeping) + islands.sleeping.iter().map(|island| of(island)).sum::<usize>();
         let resting = of(&islands.parent) + of(&islands.least_slow_time) + of(&islands.became) + of(&islands.held);
-        let told =
-            of(&events.contacts) + of(&events.found) + of(&events.order) + of(&events.touching) + of(&events.next);
+        let (meetings, listed) = (&events.meetings, events.contacts());
+        let told = of(listed) + of(&meetings.found) + of(&meetings.order) + of(&meetings.dropped) + of(&meetings.gone);
         let noticed = of(&events.sensors) + of(&events.inside) + of(&events.noticed) + of(&events.broken);
-        size_of::<Snapshot<N>>() + bodies + joints + colliders + pairs + asleep + resting + told + noticed
+        size_of::<Snapshot<N>>() + bodies + joints + colliders + pairs + ignored + asleep + resting + told + noticed
     }
 }
 

@@ -21,7 +21,7 @@ pub(crate) mod bodies;
 mod colours;
 mod coming;
 mod contacts;
-mod gyro;
+pub(crate) mod gyro;
 mod joints;
 mod lanes;
 mod machine;
@@ -36,7 +36,7 @@ use crate::BodyKind;
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::Joint;
-use crate::pairs::{Contact, Pairs};
+use crate::pairs::{Contact, Meeting, Pairs};
 use crate::threads::Pool;
 use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
@@ -367,8 +367,15 @@ impl<const N: usize> Solver<N> {
                     continue;
                 }
                 let pair = input.pairs.get_mut(self.active[index as usize].pair);
-                if let Some(contact) = pair.and_then(|pair| pair.contact.as_deref_mut()) {
+                if let Some(pair) = pair
+                    && let Some(contact) = pair.contact.as_deref_mut()
+                {
                     contacts::store(block, rows, lane, contact);
+                    let meeting = Meeting::of(contact);
+                    // Written where it changes: of most pairs a step only reads.
+                    if pair.meeting != meeting {
+                        pair.meeting = meeting;
+                    }
                     let (a, b) = (block.bodies_a[lane] as usize, block.bodies_b[lane] as usize);
                     if a != 0 && b != 0 {
                         let excess = contacts::excess::<N>(block, rows, lane);

@@ -39,3 +39,4 @@ mod snapshot_bytes;
 mod stacks_and_piles;
 mod steering;
 mod symmetry;
+mod touches;
