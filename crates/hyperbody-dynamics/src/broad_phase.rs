@@ -176,12 +176,13 @@ struct Refit<'a, const N: usize> {
 }
 
 impl<const N: usize> Refit<'_, N> {
-    fn colliders(&self, colliders: &mut [Option<Collider<N>>], motions: &mut [Motion], plain: &mut [Plain<N>]) {
+    fn colliders(&self, colliders: &mut [Option<Collider<N>>], motions: &mut [Motion<N>], plain: &mut [Plain<N>]) {
         for ((collider, motion), plain) in colliders.iter_mut().zip(motions).zip(plain) {
             let Some(collider) = collider else { continue };
             let Some(body) = self.bodies.at(collider.body) else { continue };
             motion.awake = body.is_awake();
             motion.speed = if body.quarantined { f64::INFINITY } else { 0.0 };
+            motion.velocity = body.velocity;
             if motion.awake || motion.moved {
                 self.collider(collider, motion, body);
             }
@@ -189,7 +190,7 @@ impl<const N: usize> Refit<'_, N> {
         }
     }
 
-    fn collider(&self, collider: &mut Collider<N>, motion: &mut Motion, body: &Body<N>) {
+    fn collider(&self, collider: &mut Collider<N>, motion: &mut Motion<N>, body: &Body<N>) {
         let spin = body.surface_speed_by_spin();
         if motion.awake {
             motion.speed = body.velocity.norm() + spin;

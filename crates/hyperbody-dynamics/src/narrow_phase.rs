@@ -174,7 +174,7 @@ pub(crate) struct Update<'a, const N: usize> {
     pub(crate) colliders: &'a [Option<Collider<N>>],
     pub(crate) bodies: &'a Arena<Body<N>, BodyHandle>,
     /// By slot of the collider.
-    motions: &'a [Motion],
+    motions: &'a [Motion<N>],
     /// By slot of the collider.
     pub(crate) plain: &'a [Plain<N>],
     /// m.
@@ -232,16 +232,19 @@ impl<const N: usize> Update<'_, N> {
         }
         // What was left out of the kept manifold was farther apart than the margin, and stays out of reach.
         let calm = self.dt * (a.speed + b.speed) + self.recycle_distance <= self.margin;
-        if !(calm && a.way + b.way <= pair.holds_until) {
-            if !(a.plain && b.plain && self.plain(pair, a.way + b.way)) {
-                self.look_closer(pair, a.way + b.way, scratch);
+        let (plain, way) = (a.plain && b.plain, a.way + b.way);
+        if calm && (way <= pair.holds_until || !plain && self.still_holds(pair, way)) {
+            if pair.points > 0 {
+                self.carry_along(pair);
             }
-        } else if pair.points > 0 {
-            self.carry_along(pair);
+        } else if !(plain && self.plain(pair, way)) {
+            self.look_closer(pair, way, scratch);
         }
+        // What hardly moves comes to no seam, and neither does what moves together.
         if pair.points > 0
             && !pair.round
             && a.speed + b.speed > SLIDES
+            && (a.velocity - b.velocity).norm_sq() > SLIDES * SLIDES
             && let (Some(body_a), Some(body_b)) = (self.bodies.at(pair.body_a), self.bodies.at(pair.body_b))
             && is_suspect(pair, body_a, body_b)
         {
@@ -264,20 +267,13 @@ impl<const N: usize> Update<'_, N> {
     fn look_closer(&self, pair: &mut Pair<N>, way: f64, scratch: &mut Scratch<N>) {
         let Some([(a, body_a), (b, body_b)]) = self.sides(pair) else { return };
         let closing = self.closing_distance(body_a, body_b);
-        let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
-        if let Some(kept) = &pair.search.a_from_b
-            && closing + self.recycle_distance <= self.margin
-        {
-            // Along the way the two may have come back, or gone together.
-            let left = self.recycle_distance - moved(kept, &a_from_b, a.reach.max(b.reach));
-            if left >= 0.0 {
-                pair.holds_until = way + left;
-                if pair.points > 0 {
-                    self.carry_along(pair);
-                }
-                return;
+        if closing + self.recycle_distance <= self.margin && self.still_holds(pair, way) {
+            if pair.points > 0 {
+                self.carry_along(pair);
             }
+            return;
         }
+        let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
         let mut manifold = Manifold::default();
         collide(
             &a.piece,
@@ -310,6 +306,24 @@ impl<const N: usize> Update<'_, N> {
         let keep = pair.role == PairRole::Solid && (empty || (flat_faced(&a.piece) && flat_faced(&b.piece)));
         pair.search.a_from_b = keep.then_some(a_from_b);
         pair.holds_until = if keep { way + self.recycle_distance } else { f64::NEG_INFINITY };
+    }
+
+    /// Whether what was found of two colliders holds though they went far: along the way they may have come back, or gone
+    /// together. Then until when.
+    fn still_holds(&self, pair: &mut Pair<N>, way: f64) -> bool {
+        let (Some(a), Some(b), Some(kept)) = (
+            &self.colliders[pair.collider_a as usize],
+            &self.colliders[pair.collider_b as usize],
+            &pair.search.a_from_b,
+        ) else {
+            return false;
+        };
+        let a_from_b = a.world_from_collider.relative(&b.world_from_collider);
+        let left = self.recycle_distance - moved(kept, &a_from_b, a.reach.max(b.reach));
+        if left >= 0.0 {
+            pair.holds_until = way + left;
+        }
+        left >= 0.0
     }
 
     /// Makes the manifold of a pair anew from its carried form at the colliders' present poses.

@@ -94,8 +94,7 @@ struct Hold<const N: usize> {
 /// Whether a contact that was just found approaches along its normal, as ghosts do, or parts, as behind an edge, however
 /// little.
 pub(crate) fn is_suspect<const N: usize>(pair: &Pair<N>, a: &Body<N>, b: &Body<N>) -> bool {
-    let sliding = (a.velocity - b.velocity).norm();
-    sliding > SLIDES && approach(pair, a, b).abs() > LEAN * sliding
+    approach(pair, a, b).abs() > LEAN * (a.velocity - b.velocity).norm()
 }
 
 /// Speed at which the two come together at the first point of their contact, m/s.

@@ -40,7 +40,7 @@ pub struct Snapshot<const N: usize> {
     bodies: Arena<Body<N>, BodyHandle>,
     joints: Arena<Joint<N>, JointHandle>,
     colliders: Vec<Option<Collider<N>>>,
-    motions: Vec<Motion>,
+    motions: Vec<Motion<N>>,
     free_colliders: Vec<u32>,
     half_spaces: Vec<u32>,
     tree: DynamicTree<N>,

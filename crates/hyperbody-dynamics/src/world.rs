@@ -90,11 +90,13 @@ impl<const N: usize> Collider<N> {
 
 /// How a collider moves, beside it: the pairs ask for this at every step, and for the rest seldom.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion {
+pub(crate) struct Motion<const N: usize> {
     /// Length of the way that the farthest-going of its points has come, at most, m; only grows.
     pub(crate) way: f64,
     /// Speed of its fastest point, at most, m/s; infinite in quarantine, where nothing that was known holds.
     pub(crate) speed: f64,
+    /// Of its body, m/s; of this step alone.
+    pub(crate) velocity: Vector<N>,
     /// Whether its body may move in this step.
     pub(crate) awake: bool,
     /// Whether it is a ball or a half-space, and stands in `World::plain` as it is in this step.
@@ -115,7 +117,7 @@ pub struct World<const N: usize> {
     pub(crate) joints: Arena<Joint<N>, JointHandle>,
     pub(crate) colliders: Vec<Option<Collider<N>>>,
     /// One a collider.
-    pub(crate) motions: Vec<Motion>,
+    pub(crate) motions: Vec<Motion<N>>,
     /// One a collider; of this step alone.
     pub(crate) plain: Vec<Plain<N>>,
     pub(crate) free_colliders: Vec<u32>,
@@ -244,7 +246,8 @@ impl<const N: usize> World<N> {
         let Some(body) = self.bodies.at_mut(body_slot) else { return };
         let slot = self.free_colliders.pop().unwrap_or_else(|| {
             self.colliders.push(None);
-            self.motions.push(Motion { way: 0.0, speed: 0.0, awake: false, plain: false, moved: true });
+            let velocity = Vector::ZERO;
+            self.motions.push(Motion { way: 0.0, speed: 0.0, velocity, awake: false, plain: false, moved: true });
             #[expect(clippy::cast_possible_truncation, reason = "fewer colliders than fit into memory")]
             let last = (self.colliders.len() - 1) as u32;
             last

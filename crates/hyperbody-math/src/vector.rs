@@ -169,13 +169,14 @@ impl<const N: usize> Vector<N> {
     pub fn orthonormal_complement(self) -> [Self; N] {
         let k = self.axis_of_max_abs();
         let sign = if self.0[k] < 0.0 { -1.0 } else { 1.0 };
-        // u = self + sign e_k is never short: |u|² = 2 + 2|self_k|.
-        let mut u = self;
-        u.0[k] += sign;
+        // u = self + sign e_k is never short: |u|² = 2 + 2|self_k|. Chosen rather than indexed: numbers that are stored one by one
+        // and loaded as vectors are waited for.
+        let u = Self::from_fn(|i| if i == k { self.0[i] + sign } else { self.0[i] });
         let factor = 2.0 / u.norm_sq();
+        let image = |axis: usize| Self::unit(axis) - u * (factor * u.0[axis]);
         let mut basis = [Self::ZERO; N];
-        for (slot, axis) in (0..N).filter(|&axis| axis != k).enumerate() {
-            basis[slot] = Self::unit(axis) - u * (factor * u.0[axis]);
+        for slot in 0..N - 1 {
+            basis[slot] = if slot < k { image(slot) } else { image(slot + 1) };
         }
         basis
     }

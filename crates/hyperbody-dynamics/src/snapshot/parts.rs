@@ -93,7 +93,7 @@ stored!(Body<N> {
     vetted: unset,
     solver_index: unset,
 });
-stored!(Motion { way: wide, speed: wide, awake, plain: unset, moved });
+stored!(Motion<N> { way: wide, speed: wide, velocity: unset, awake, plain: unset, moved });
 
 stored!(Motor { speed, max_force: wide });
 stored!(Spring { target, hz, damping_ratio, max_force: wide });

@@ -9,6 +9,8 @@
 //! inverse mass matrix is the identity: one vector a row serves both to measure a velocity and to apply an impulse,
 //! and bodies that no impulse moves are rows of zeros.
 
+use std::ops::{Deref, DerefMut};
+
 use hyperbody_math::{Bivector, Rotation, Vector, planes};
 
 use super::lanes::{Real, WIDTH};
@@ -32,7 +34,34 @@ impl<const N: usize> Sizes<N> {
     pub(crate) const STATE: usize = (2 * Self::VELOCITY).next_multiple_of(WIDTH);
 }
 
-/// Mass, frame and base motion of a body during one step; first what contacts of balls ask for.
+/// A number a plane, in lexicographic order. A length of N(N−1)/2 can't be said in the type; 3N is enough up to 7D.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlaneNumbers<const N: usize>([[f64; N]; 3]);
+
+impl<const N: usize> PlaneNumbers<N> {
+    pub(crate) const fn splat(value: f64) -> Self {
+        Self([[value; N]; 3])
+    }
+}
+
+impl<const N: usize> Deref for PlaneNumbers<N> {
+    type Target = [f64];
+
+    #[inline]
+    fn deref(&self) -> &[f64] {
+        &self.0.as_flattened()[..Sizes::<N>::K]
+    }
+}
+
+impl<const N: usize> DerefMut for PlaneNumbers<N> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut [f64] {
+        &mut self.0.as_flattened_mut()[..Sizes::<N>::K]
+    }
+}
+
+/// Mass, frame and base motion of a body during one step: first what contacts of balls ask for, then what others do, then what
+/// few bodies have.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(crate) struct SolverBody<const N: usize> {
@@ -42,21 +71,24 @@ pub(crate) struct SolverBody<const N: usize> {
     pub(crate) slot: u32,
     /// See [`Body::is_ball`].
     pub(crate) is_ball: bool,
+    /// Whether there is an angular acceleration.
     pub(crate) spins_up: bool,
+    /// Whether its surface runs.
+    pub(crate) runs: bool,
     pub(crate) centre: Vector<N>,
     /// Base motion: velocity at time t of the step = velocity + t · acceleration.
     pub(crate) velocity: Vector<N>,
     pub(crate) acceleration: Vector<N>,
-    /// How the surface runs along the body, world axes, m/s: friction is against it.
-    pub(crate) surface: Vector<N>,
     pub(crate) angular_velocity: Bivector<N>,
-    /// 1/√I of plane (i, j) of the solver frame, lexicographic; zero for bodies that no impulse moves.
-    pub(crate) inverse_sqrt_moments: [f64; MAX_PLANES],
-    /// What the moments have beside those of the body, kg·m²; see `joints/tension.rs`.
-    pub(crate) added_moment: f64,
+    /// 1/√I of the planes of the solver frame; zero for bodies that no impulse moves.
+    pub(crate) inverse_sqrt_moments: PlaneNumbers<N>,
     /// World from solver frame; `None` where that is the identity.
     pub(crate) frame: Option<Rotation<N>>,
-    /// Zero for most; `spins_up` tells.
+
+    /// How the surface runs along the body, world axes, m/s: friction is against it.
+    pub(crate) surface: Vector<N>,
+    /// What the moments have beside those of the body, kg·m²; see `joints/tension.rs`.
+    pub(crate) added_moment: f64,
     pub(crate) angular_acceleration: Bivector<N>,
 }
 
@@ -68,10 +100,11 @@ impl<const N: usize> SolverBody<N> {
             slot: 0,
             inverse_sqrt_mass,
             frame: None,
-            inverse_sqrt_moments: [1.0; MAX_PLANES],
+            inverse_sqrt_moments: PlaneNumbers::splat(1.0),
             added_moment: 0.0,
             is_ball: false,
             spins_up: false,
+            runs: false,
             centre: Vector::ZERO,
             velocity: Vector::ZERO,
             angular_velocity: Bivector::ZERO,
@@ -83,29 +116,31 @@ impl<const N: usize> SolverBody<N> {
 
     /// A body that no impulse moves.
     pub(crate) fn immovable(body: &Body<N>) -> Self {
+        let surface = body.surface_in_world();
         Self {
             slot: u32::MAX,
             inverse_sqrt_mass: 0.0,
             frame: None,
-            inverse_sqrt_moments: [0.0; MAX_PLANES],
+            inverse_sqrt_moments: PlaneNumbers::splat(0.0),
             added_moment: 0.0,
             is_ball: false,
             spins_up: false,
+            runs: surface != Vector::ZERO,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
             acceleration: Vector::ZERO,
             angular_acceleration: Bivector::ZERO,
-            surface: body.surface_in_world(),
+            surface,
         }
     }
 
     /// A dynamic body under gravity and its own forces.
     pub(crate) fn dynamic(slot: u32, body: &Body<N>, gravity: Vector<N>, added_moment: f64) -> Self {
         let inverse_sqrt = |moment: f64| 1.0 / (moment + added_moment).sqrt();
-        let mut inverse_sqrt_moments = [0.0; MAX_PLANES];
+        let mut inverse_sqrt_moments = PlaneNumbers::splat(0.0);
         match body.inertia.isotropic {
-            Some(moment) => inverse_sqrt_moments[..Sizes::<N>::K].fill(inverse_sqrt(moment)),
+            Some(moment) => inverse_sqrt_moments.fill(inverse_sqrt(moment)),
             None => {
                 for (k, (i, j)) in planes::all(N).enumerate() {
                     inverse_sqrt_moments[k] = inverse_sqrt(body.inertia.plane_moment(i, j));
@@ -116,6 +151,7 @@ impl<const N: usize> SolverBody<N> {
         let spins_up = body.torque != Bivector::ZERO;
         let angular_acceleration =
             if spins_up { body.inertia.velocity(&body.rotation, &body.torque) } else { Bivector::ZERO };
+        let surface = body.surface_in_world();
         Self {
             slot,
             inverse_sqrt_mass: body.inverse_mass.sqrt(),
@@ -124,12 +160,13 @@ impl<const N: usize> SolverBody<N> {
             added_moment,
             is_ball: body.is_ball,
             spins_up,
+            runs: surface != Vector::ZERO,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
             acceleration: gravity * body.gravity_scale + body.force * body.inverse_mass,
             angular_acceleration,
-            surface: body.surface_in_world(),
+            surface,
         }
     }
 
@@ -183,18 +220,12 @@ impl<const N: usize> SolverBody<N> {
 
     /// Adds `share` times an angular impulse, by the planes of the world, to the scaled angular velocity `spin`.
     pub(crate) fn add_spin(&self, spin: &mut [Real], impulse: &[f64; MAX_PLANES], share: f64) {
-        let changes = match &self.frame {
-            None => {
-                let mut changes = *impulse;
-                changes.iter_mut().zip(&self.inverse_sqrt_moments).for_each(|(change, scale)| *change *= scale);
-                changes
-            }
-            Some(_) => {
-                let mut planes = impulse.iter();
-                self.lever(&Bivector::from_fn(|_, _| planes.next().copied().unwrap_or(0.0)))
-            }
-        };
-        for (value, change) in spin.iter_mut().zip(&changes[..Sizes::<N>::K]) {
+        let turned = (!self.is_ball && self.frame.is_some()).then(|| {
+            let mut planes = impulse.iter();
+            self.lever(&Bivector::from_fn(|_, _| planes.next().copied().unwrap_or(0.0)))
+        });
+        for (k, (value, scale)) in spin.iter_mut().zip(&*self.inverse_sqrt_moments).enumerate() {
+            let change = turned.map_or_else(|| impulse[k] * scale, |turned| turned[k]);
             *value += (change * share) as Real;
         }
     }
@@ -212,28 +243,32 @@ impl<const N: usize> SolverBody<N> {
     }
 
     /// A bivector of the solver frame, scaled by 1/√I (velocities, displacements), in the world.
+    #[inline(always)]
     pub(crate) fn unscaled_velocity(&self, scaled: &[Real]) -> Bivector<N> {
-        self.in_world(scaled, |k| self.inverse_sqrt_moments[k])
+        self.in_world(scaled, |scale| scale)
     }
 
     /// The angular momentum of a scaled angular velocity, in the world: √I times it.
     pub(crate) fn momentum_of(&self, scaled: &[Real]) -> Bivector<N> {
-        self.in_world(scaled, |k| 1.0 / self.inverse_sqrt_moments[k])
+        self.in_world(scaled, |scale| 1.0 / scale)
     }
 
     /// The share of [`SolverBody::momentum_of`] that the body's own inertia has.
+    #[inline(always)]
     pub(crate) fn own_momentum_of(&self, scaled: &[Real]) -> Bivector<N> {
-        self.in_world(scaled, |k| 1.0 / self.inverse_sqrt_moments[k] - self.added_moment * self.inverse_sqrt_moments[k])
+        self.in_world(scaled, |scale| 1.0 / scale - self.added_moment * scale)
     }
 
-    fn in_world(&self, scaled: &[Real], factor: impl Fn(usize) -> f64) -> Bivector<N> {
-        let mut result = Bivector::ZERO;
-        for (k, (i, j)) in planes::all(N).enumerate() {
-            result.set(i, j, f64::from(scaled[k]) * factor(k));
-        }
+    /// Numbers of planes of the solver frame, times what `factor` makes of 1/√I, in the world.
+    #[inline(always)]
+    fn in_world(&self, scaled: &[Real], factor: impl Fn(f64) -> f64) -> Bivector<N> {
+        let in_frame = || {
+            let mut planes = scaled.iter().zip(&*self.inverse_sqrt_moments);
+            Bivector::from_fn(|_, _| planes.next().map_or(0.0, |(&number, &scale)| f64::from(number) * factor(scale)))
+        };
         match &self.frame {
-            Some(frame) => frame.rotate_bivector(&result),
-            None => result,
+            Some(frame) => frame.rotate_bivector(&in_frame()),
+            None => in_frame(),
         }
     }
 

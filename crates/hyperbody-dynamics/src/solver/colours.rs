@@ -51,11 +51,35 @@ impl Group {
 
 const COLOURS: usize = 64;
 
+/// Where a contact stands in the order of solving: by colour, then by class, most points first, so that few lanes idle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place(u16);
+
+impl Place {
+    const CLASSES: usize = MAX_POINTS + 1;
+    const COUNT: usize = (COLOURS + 1) * Self::CLASSES;
+
+    /// Of colour [`COLOURS`] is what no colour holds.
+    fn new(colour: usize, contact: &ActiveContact) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "below COUNT")]
+        Self((colour * Self::CLASSES + MAX_POINTS - contact.class()) as u16)
+    }
+
+    fn colour(self) -> usize {
+        usize::from(self.0) / Self::CLASSES
+    }
+
+    fn is_round(self) -> bool {
+        usize::from(self.0) % Self::CLASSES == MAX_POINTS
+    }
+}
+
 /// Buffers of the colouring, kept from step to step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Colours {
     used: Vec<u64>,
-    colour_of: Vec<u8>,
+    /// By contact.
+    places: Vec<Place>,
     order: Vec<u32>,
     counting: Counting,
     /// Groups in the order of solving.
@@ -69,20 +93,16 @@ impl Colours {
     pub(crate) fn assign(&mut self, contacts: &[ActiveContact], body_count: usize) {
         self.used.clear();
         self.used.resize(body_count, 0);
-        self.colour_of.clear();
-        self.colour_of.resize(contacts.len(), OVERFLOW);
+        self.places.clear();
+        self.places.extend(contacts.iter().map(|contact| Place::new(COLOURS, contact)));
         let first_static = self.colour(contacts, true, 0);
         self.colour(contacts, false, first_static);
-        // Contacts with as many points stand together, most first, so that few lanes idle; ties keep their order.
-        let colour_of = &self.colour_of;
+        let places = &self.places;
         self.order.clear();
         #[expect(clippy::cast_possible_truncation, reason = "fewer contacts than fit into memory")]
         self.order.extend(0..contacts.len() as u32);
-        self.counting.sort(&mut self.order, (COLOURS + 1) * (MAX_POINTS + 1), |contact| {
-            let colour = usize::from(colour_of[contact as usize]).min(COLOURS);
-            colour * (MAX_POINTS + 1) + MAX_POINTS - contacts[contact as usize].class()
-        });
-        self.pack(contacts);
+        self.counting.sort(&mut self.order, Place::COUNT, |contact| usize::from(places[contact as usize].0));
+        self.pack();
     }
 
     /// Colours the contacts whose bodies both move (`both` true) or only one does; returns the colour after the last.
@@ -110,23 +130,22 @@ impl Colours {
             if b {
                 self.used[contact.body_b as usize] |= 1 << colour;
             }
-            #[expect(clippy::cast_possible_truncation, reason = "below 64")]
-            let colour_byte = colour as u8;
-            self.colour_of[index] = colour_byte;
+            self.places[index] = Place::new(colour, contact);
             next = next.max(colour + 1);
         }
         next.min(COLOURS - 2)
     }
 
-    fn pack(&mut self, contacts: &[ActiveContact]) {
+    fn pack(&mut self) {
         self.groups.clear();
         self.ends.clear();
         let mut lane = WIDTH;
-        let mut current = (OVERFLOW, false);
+        let mut current = (COLOURS, false);
         for &contact in &self.order {
-            let kind = (self.colour_of[contact as usize], contacts[contact as usize].round);
-            if lane == WIDTH || kind != current || kind.0 == OVERFLOW {
-                if !self.groups.is_empty() && (kind.0 != current.0 || kind.0 == OVERFLOW) {
+            let place = self.places[contact as usize];
+            let kind = (place.colour(), place.is_round());
+            if lane == WIDTH || kind != current || kind.0 == COLOURS {
+                if !self.groups.is_empty() && (kind.0 != current.0 || kind.0 == COLOURS) {
                     self.ends.push(self.groups.len());
                 }
                 self.groups.push(Group { contacts: [Group::EMPTY; WIDTH] });
@@ -143,8 +162,6 @@ impl Colours {
         }
     }
 }
-
-const OVERFLOW: u8 = u8::MAX;
 
 #[cfg(test)]
 mod tests {

@@ -6,7 +6,7 @@
 use std::mem::offset_of;
 
 use super::bodies::SolverBody;
-use super::colours::{ActiveContact, Group};
+use super::colours::ActiveContact;
 use super::contacts::{Block, Layout};
 use super::lanes::Lanes;
 use crate::ahead::{IS_HEARD, fetch, fetch_all};
@@ -27,24 +27,27 @@ impl<const N: usize> Coming<'_, N> {
         if !IS_HEARD {
             return;
         }
-        for contact in self.contacts(index + 3) {
-            fetch(&pairs.slots()[contact.pair as usize], usize::MAX);
+        for (_, active) in self.contacts(index + 3) {
+            fetch(&pairs.slots()[active.pair as usize], usize::MAX);
         }
-        for active in self.contacts(index + 2) {
-            // Both keep in front what rows of balls are made of, and at the end what few rows are.
-            let (of_contact, of_body) = if active.round {
-                (offset_of!(Contact<N>, normal_in_a), offset_of!(SolverBody<N>, added_moment))
+        for (block, active) in self.contacts(index + 2) {
+            let contact = pairs.get(active.pair).and_then(|pair| pair.contact.as_deref());
+            let bodies = [active.body_a, active.body_b].map(|body| &self.bodies[body as usize]);
+            // Both keep in front what rows of balls are made of, of moments the first, and at the end what few rows are. How much it
+            // is stands in the calls, so that each becomes as many hints and no loop.
+            if block.round {
+                let first_moment = offset_of!(SolverBody<N>, inverse_sqrt_moments) + size_of::<f64>();
+                contact.into_iter().for_each(|contact| fetch(contact, offset_of!(Contact<N>, normal_in_a)));
+                bodies.into_iter().for_each(|body| fetch(body, first_moment));
             } else {
-                (size_of::<Contact<N>>(), offset_of!(SolverBody<N>, angular_acceleration))
-            };
-            if let Some(contact) = pairs.get(active.pair).and_then(|pair| pair.contact.as_deref()) {
-                fetch(contact, of_contact);
+                contact.into_iter().for_each(|contact| fetch(contact, offset_of!(Contact<N>, resistance)));
+                bodies.into_iter().for_each(|body| fetch(body, offset_of!(SolverBody<N>, surface)));
             }
-            fetch(&self.bodies[active.body_a as usize], of_body);
-            fetch(&self.bodies[active.body_b as usize], of_body);
         }
-        for contact in self.contacts(index + 1) {
-            fetch_all(pairs.get(contact.pair).map_or(&[], |pair| pair.touches()));
+        for (_, active) in self.contacts(index + 1).filter(|(block, _)| !block.round) {
+            if let Some(contact) = pairs.get(active.pair).and_then(|pair| pair.contact.as_deref()) {
+                fetch_all(&contact.touches);
+            }
         }
     }
 
@@ -55,8 +58,12 @@ impl<const N: usize> Coming<'_, N> {
         fetch_all(&rows[block.start..block.start + Layout::<N>::block_len(block)]);
     }
 
-    fn contacts(&self, index: usize) -> impl Iterator<Item = &ActiveContact> {
-        let lanes = self.blocks.get(index).into_iter().flat_map(|block| block.contacts.iter());
-        lanes.filter(|&&contact| contact != Group::EMPTY).map(|&contact| &self.active[contact as usize])
+    /// The contacts of a block.
+    #[inline(always)]
+    fn contacts(&self, index: usize) -> impl Iterator<Item = (&Block, &ActiveContact)> {
+        let lanes =
+            self.blocks.get(index).into_iter().flat_map(|block| block.contacts.iter().map(move |&lane| (block, lane)));
+        // No index is that of an empty lane.
+        lanes.filter_map(|(block, contact)| Some((block, self.active.get(contact as usize)?)))
     }
 }

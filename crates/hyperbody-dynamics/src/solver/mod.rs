@@ -40,7 +40,7 @@ use crate::pairs::{Contact, Meeting, Pairs};
 use crate::threads::Pool;
 use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
-use bodies::{Sizes, SolverBody};
+use bodies::{PlaneNumbers, Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
 use coming::Coming;
 use contacts::{Arms, Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Respond, Sweep, WarmStart};
@@ -164,6 +164,7 @@ impl<const N: usize> Solver<N> {
             first.slot = u32::MAX;
             first.inverse_sqrt_mass = 0.0;
             first.surface = Vector::ZERO;
+            first.runs = false;
         }
         self.state.clear();
         self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
@@ -267,9 +268,9 @@ impl<const N: usize> Solver<N> {
             if substep == 0 {
                 let contacts = &mut self.contacts;
                 let pass = |state: &mut [Real]| processor.run(WarmStart::<N> { contacts, state });
-                self.pressed.watch::<N>(&mut self.state, pass);
+                self.pressed.watch::<N>(processor, &mut self.state, pass);
             } else {
-                self.pressed.warm_start::<N>(&mut self.state);
+                self.pressed.warm_start::<N>(processor, &mut self.state);
             }
             self.solve_joints(Pass::Move, substep, h);
             self.solve_contacts(&times, input.pool);
@@ -290,7 +291,7 @@ impl<const N: usize> Solver<N> {
     fn solve_contacts(&mut self, times: &PassTimes, pool: Option<&Pool>) {
         let sweep = Sweep { processor: self.processor, times };
         let (contacts, ends) = (&mut self.contacts, self.colours.ends.as_slice());
-        self.pressed.watch::<N>(&mut self.state, |state| sweep.run::<N>(contacts, ends, state, pool));
+        self.pressed.watch::<N>(self.processor, &mut self.state, |state| sweep.run::<N>(contacts, ends, state, pool));
     }
 
     fn refresh_joints(&mut self, moment: &Moment) {
@@ -443,8 +444,9 @@ fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
         added_moment: 0.0,
         is_ball: false,
         spins_up: false,
+        runs: false,
         frame: None,
-        inverse_sqrt_moments: [0.0; bodies::MAX_PLANES],
+        inverse_sqrt_moments: PlaneNumbers::splat(0.0),
         centre: contact.touches.first().map_or(Vector::ZERO, |touch| touch.point.position),
         velocity: Vector::ZERO,
         angular_velocity: Bivector::ZERO,

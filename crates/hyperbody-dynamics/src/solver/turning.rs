@@ -29,30 +29,31 @@ pub(crate) struct Turning<const N: usize> {
     turns: Vec<Turn<N>>,
     /// By row of the solver's bodies: place in `turns`, or [`NONE`].
     place: Vec<u32>,
-    bounds: Vec<Bounds>,
-}
-
-/// From which a body is seen not to have turned far, without looking at it closer.
-#[derive(Clone, Copy, Debug)]
-struct Bounds {
-    /// Turn of the base motion up to the end of the step, rad.
-    base: Real,
-    /// Turn for each unit of scaled displacement, rad.
-    largest_scale: Real,
+    /// By row: up to which [`bound`] it is seen not to have turned far without looking closer.
+    bounds: Vec<Real>,
 }
 
 const NONE: u32 = u32::MAX;
 
-impl Bounds {
-    /// Whether a body of this displacement has turned by no more than [`FAR`], half by its base motion and half by impulses;
-    /// false where that cannot be told.
-    #[inline]
-    fn hold(&self, scaled: &[Real]) -> bool {
-        const HALF: Real = 0.49 * FAR as Real;
-        let by_impulses = scaled.iter().map(|value| value * value).sum::<Real>().sqrt() * self.largest_scale;
-        by_impulses <= HALF && self.base <= HALF
+/// The square of a scaled displacement up to which a body has turned by no more than [`FAR`], half by its base motion in `dt`
+/// seconds and half by impulses; below zero where that cannot be told.
+fn bound<const N: usize>(body: &SolverBody<N>, dt: f64) -> Real {
+    const HALF: f64 = 0.49 * FAR;
+    if body.is_ball {
+        return Real::INFINITY;
+    }
+    let spin_up = if body.spins_up { body.angular_acceleration.norm() } else { 0.0 };
+    if (body.angular_velocity.norm() + dt * spin_up) * dt <= HALF {
+        let largest_scale = body.inverse_sqrt_moments.iter().copied().fold(0.0, f64::max);
+        let most = HALF / largest_scale;
+        (most * most) as Real
+    } else {
+        LOOKED_AT
     }
 }
+
+/// The bound of a body of which nothing is known, or that has turned far.
+const LOOKED_AT: Real = -1.0;
 
 impl<const N: usize> Turning<N> {
     /// Forgets the last step, and looks who may turn far in the next one of `dt` seconds.
@@ -61,12 +62,7 @@ impl<const N: usize> Turning<N> {
         self.place.clear();
         self.place.resize(bodies.len(), NONE);
         self.bounds.clear();
-        self.bounds.extend(bodies.iter().map(|body| {
-            let spin_up = if body.spins_up { body.angular_acceleration.norm() } else { 0.0 };
-            let base = (body.angular_velocity.norm() + dt * spin_up) * dt;
-            let largest_scale = body.inverse_sqrt_moments.iter().copied().fold(0.0, f64::max);
-            Bounds { base: base as Real, largest_scale: largest_scale as Real }
-        }));
+        self.bounds.extend(bodies.iter().map(|body| bound(body, dt)));
     }
 
     /// Looks who has turned far by now, and mends the gaps of their contacts.
@@ -106,13 +102,15 @@ impl<const N: usize> Turning<N> {
 
     fn find(&mut self, bodies: &[SolverBody<N>], state: &[Real], times: &PassTimes) {
         let (moved, moved_sq) = (f64::from(times.moved), f64::from(times.moved_sq));
-        let rows = state.chunks_exact(Sizes::<N>::STATE).zip(bodies).zip(&self.bounds).enumerate();
-        for (row, ((state, body), bounds)) in rows.skip(1) {
+        let rows = state.chunks_exact(Sizes::<N>::STATE).zip(&mut self.bounds).enumerate();
+        for (row, (state, bound)) in rows.skip(1) {
             let scaled = &state[Sizes::<N>::VELOCITY + N..2 * Sizes::<N>::VELOCITY];
-            let known = self.place[row];
-            if (known == NONE && bounds.hold(scaled)) || body.is_ball {
+            let displaced_sq: Real = scaled.iter().map(|value| value * value).sum();
+            let body = &bodies[row];
+            if displaced_sq <= *bound || body.is_ball {
                 continue;
             }
+            let known = self.place[row];
             let mut by_impulses: f64 = 0.0;
             for (k, &value) in scaled.iter().enumerate() {
                 let turn = f64::from(value) * body.inverse_sqrt_moments[k];
@@ -133,6 +131,7 @@ impl<const N: usize> Turning<N> {
                 #[expect(clippy::cast_possible_truncation, reason = "no more turns than bodies")]
                 let place = self.turns.len() as u32;
                 self.place[row] = place;
+                *bound = LOOKED_AT;
                 self.turns.push(turn);
             }
         }

@@ -104,6 +104,14 @@ impl<const N: usize> Lane<'_, N> {
         )
     }
 
+    /// How b's surface runs against a's.
+    pub(super) fn surfaces(&self, contact: &Contact<N>) -> Vector<N> {
+        if self.a.runs || self.b.runs {
+            return contact.surface + self.b.surface - self.a.surface;
+        }
+        contact.surface
+    }
+
     pub(super) fn inverse_mass_sum(&self) -> f64 {
         self.a.inverse_sqrt_mass * self.a.inverse_sqrt_mass + self.b.inverse_sqrt_mass * self.b.inverse_sqrt_mass
     }
@@ -134,7 +142,7 @@ impl<const N: usize> Lane<'_, N> {
         tangents: &[Vector<N>; N],
         (velocity, acceleration): (Vector<N>, Vector<N>),
     ) {
-        let velocity = velocity + self.b.surface - self.a.surface + contact.surface;
+        let velocity = velocity + self.surfaces(contact);
         for t in 0..Layout::<N>::SLIDES {
             let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
             let tangent = tangents[t];

@@ -288,11 +288,11 @@ impl Prepare {
         lane.set(RoundLayout::<N>::GAP, point.separation);
         lane.set(RoundLayout::<N>::IMPULSE, f64::from(touch.normal_impulse));
         let (velocity, acceleration) = lane.base_motion(r);
-        let velocity = velocity + contact.surface;
-        lane.set(RoundLayout::<N>::NORMAL_VELOCITY, velocity.dot(normal));
+        let sliding = velocity + lane.surfaces(contact);
+        lane.set(RoundLayout::<N>::NORMAL_VELOCITY, (velocity + contact.surface).dot(normal));
         lane.set(RoundLayout::<N>::NORMAL_ACCELERATION, acceleration.dot(normal));
         lane.set_vector(RoundLayout::<N>::NORMAL, normal);
-        lane.set_vector(RoundLayout::<N>::VELOCITY, across(velocity + b.surface - a.surface));
+        lane.set_vector(RoundLayout::<N>::VELOCITY, across(sliding));
         lane.set_vector(RoundLayout::<N>::ACCELERATION, across(acceleration));
         lane.set_vector(RoundLayout::<N>::CENTRE_VELOCITY, b.velocity - a.velocity);
         lane.set_vector(RoundLayout::<N>::CENTRE_ACCELERATION, b.acceleration - a.acceleration);

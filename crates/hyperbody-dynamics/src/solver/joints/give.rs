@@ -4,7 +4,7 @@ use super::aim::PUSH_BACK;
 use super::geometry::response;
 use super::{JointRows, Row, block};
 use crate::joint::{Coordinate, Role, Spring};
-use crate::solver::bodies::{Sizes, SolverBody};
+use crate::solver::bodies::SolverBody;
 use crate::solver::softness::Softness;
 
 /// Most rows of a joint that are held: all of 6D, a rod and a coupling.
@@ -155,7 +155,7 @@ impl<const N: usize> Row<N> {
             return self.response;
         }
         let of = |arm: &[f64], body: &SolverBody<N>| -> f64 {
-            let inverse = &body.inverse_sqrt_moments[..Sizes::<N>::K];
+            let inverse = &*body.inverse_sqrt_moments;
             let own = |inverse: &f64| (1.0 - body.added_moment * inverse * inverse).max(f64::EPSILON);
             arm.iter().zip(inverse).map(|(arm, inverse)| arm * arm / own(inverse)).sum()
         };
