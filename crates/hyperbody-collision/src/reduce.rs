@@ -116,11 +116,16 @@ impl<const N: usize> Reducer<N> {
             let point = self.candidates[place].position;
             let opposite = self.middle * 2.0 - point;
             let near_sq = OPPOSITE_SQ * (point - self.middle).norm_sq();
-            let is_near = |candidate: &Candidate<N>| (candidate.position - opposite).norm_sq() <= near_sq;
-            if let Some(partner) = self.candidates[..chosen].iter().position(is_near) {
+            let distance_sq = |place: usize| (self.candidates[place].position - opposite).norm_sq();
+            // The nearest, not any: of a patch whose halves mirror each other the halves of what is chosen do, too.
+            let nearest = |places: std::ops::Range<usize>| {
+                let near = places.filter(|&place| distance_sq(place) <= near_sq);
+                near.min_by(|&a, &b| distance_sq(a).total_cmp(&distance_sq(b)))
+            };
+            if let Some(partner) = nearest(0..chosen) {
                 self.paired |= 1 << partner;
-            } else if let Some(partner) = self.candidates[chosen..].iter().position(is_near) {
-                return Some(chosen + partner);
+            } else if let Some(partner) = nearest(chosen..self.candidates.len()) {
+                return Some(partner);
             }
         }
         None
@@ -185,6 +190,49 @@ impl<const N: usize> Reducer<N> {
             self.residuals[other] -= direction * along;
             let distance_sq = (self.candidates[other].position - point).norm_sq();
             self.nearest_sq[other] = self.nearest_sq[other].min(distance_sq);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two cubes in 4D, one on the other, that were turned within the space of three axes by an impact: what they share is a prism over a
+    /// polygon of that space. A choice that does not mirror itself at the middle of the prism would turn them out of the space.
+    #[test]
+    fn what_is_chosen_of_a_prism_mirrors_itself() {
+        // Place in the space and along the fourth axis, separation, id.
+        let prism = [
+            ([0.399996757, 0.298543511, 0.399997675], -0.5, -0.002912977, 1_390_962_319),
+            ([0.4, 0.298547222, 0.047733535], -0.5, -0.002905556, 1_278_679_595),
+            ([-0.4, 0.29756567, 0.39999027], -0.5, -0.00486866, 1_888_061_663),
+            ([-0.4, 0.297566644, 0.307424909], -0.5, -0.004866712, 3_297_766_464),
+            ([-0.399993488, 0.297574097, -0.4], 0.5, -0.004851807, 2_552_451_132),
+            ([0.4, 0.298551934, -0.4], 0.5, -0.002896132, 1_030_463_607),
+            ([0.399996757, 0.298543512, 0.399997675], 0.5, -0.002912976, 1_044_465_097),
+            ([0.4, 0.298547223, 0.047733898], 0.5, -0.002905554, 932_182_373),
+            ([0.4, 0.298547837, -0.010659089], 0.5, -0.002904326, 2_598_201_275),
+            ([-0.4, 0.297565671, 0.39999027], 0.5, -0.004868659, 1_541_564_441),
+            ([-0.4, 0.297566645, 0.307425273], 0.5, -0.004866711, 2_951_269_242),
+            ([-0.399995594, 0.297571687, -0.171285827], 0.5, -0.004856625, 4_120_188_800),
+            ([-0.399995594, 0.297571687, -0.171286505], -0.5, -0.004856626, 2_683_472_651),
+            ([-0.399993488, 0.297574096, -0.4], -0.5, -0.004851808, 769_237_761),
+            ([0.4, 0.298547837, -0.010661365], -0.5, -0.002904327, 1_161_485_126),
+            ([0.4, 0.298551934, -0.4], -0.5, -0.002896133, 3_542_217_532),
+        ];
+        let mut reducer = Reducer::<4>::default();
+        reducer.candidates.extend(prism.map(|([x, y, z], w, separation, id)| {
+            let position = Vector([x, y, z, w]);
+            Candidate { position, separation, id, class: None, known: false }
+        }));
+        reducer.reduce(8, &[1_390_962_319], 0.8);
+        let chosen: Vec<Vector<4>> = reducer.candidates.iter().map(|candidate| candidate.position).collect();
+        assert_eq!(chosen.len(), 8);
+        for point in &chosen {
+            let mirrored = *point - Vector::unit(3) * (2.0 * point[3]);
+            let is_there = chosen.iter().any(|other| other.distance(mirrored) < 1e-4);
+            assert!(is_there, "{mirrored:?} is missing among {chosen:?}");
         }
     }
 }

@@ -51,6 +51,9 @@ impl Group {
 
 const COLOURS: usize = 64;
 
+/// Contacts of a step up to which it matters how full the last group of a colour is.
+const FEW: usize = 512;
+
 /// Where a contact stands in the order of solving: by colour, then by class, most points first, so that few lanes idle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place(u16);
@@ -82,6 +85,8 @@ pub(crate) struct Colours {
     places: Vec<Place>,
     order: Vec<u32>,
     counting: Counting,
+    /// Contacts that leave the last group of their colour half empty.
+    rest: Vec<u32>,
     /// Groups in the order of solving.
     pub(crate) groups: Vec<Group>,
     /// After how many groups each colour ends. What no colour holds counts as one of its own.
@@ -96,7 +101,9 @@ impl Colours {
         self.places.clear();
         self.places.extend(contacts.iter().map(|contact| Place::new(COLOURS, contact)));
         let first_static = self.colour(contacts, true, 0);
-        self.colour(contacts, false, first_static);
+        let first_static = self.join_rests(contacts, 0, first_static);
+        let end = self.colour(contacts, false, first_static);
+        self.join_rests(contacts, first_static, end);
         let places = &self.places;
         self.order.clear();
         #[expect(clippy::cast_possible_truncation, reason = "fewer contacts than fit into memory")]
@@ -136,6 +143,59 @@ impl Colours {
         next.min(COLOURS - 2)
     }
 
+    /// Of each colour from `first` to before `end`, what does not fill a group is put into new colours after them, if that makes
+    /// fewer groups: a half-empty one takes as long as a full one. Returns the colour after the last.
+    fn join_rests(&mut self, contacts: &[ActiveContact], first: usize, end: usize) -> usize {
+        if contacts.len() > FEW || end < first + 2 || end + 2 >= COLOURS {
+            return end;
+        }
+        let mut left = [0; COLOURS];
+        for place in self.places.iter().filter(|place| (first..end).contains(&place.colour())) {
+            left[place.colour()] += 1;
+        }
+        left.iter_mut().for_each(|count| *count %= WIDTH);
+        let half_empty = left.iter().filter(|&&count| count > 0).count();
+        // The last of one colour and the first of the next: neighbours seldom share a body.
+        self.rest.clear();
+        let mut take = |index: usize, colour: usize, even: bool| {
+            if (first..end).contains(&colour) && colour.is_multiple_of(2) == even && left[colour] > 0 {
+                left[colour] -= 1;
+                #[expect(clippy::cast_possible_truncation, reason = "few")]
+                self.rest.push(index as u32);
+            }
+        };
+        let colours = self.places.iter().map(|place| place.colour()).enumerate();
+        colours.clone().rev().for_each(|(index, colour)| take(index, colour, true));
+        colours.for_each(|(index, colour)| take(index, colour, false));
+        self.rest.sort_unstable();
+        let mut counts = [0; COLOURS];
+        let mut chosen = [COLOURS; COLOURS * WIDTH];
+        for (&index, chosen) in self.rest.iter().zip(&mut chosen) {
+            let rows = contacts[index as usize].state_rows().map(|row| row as usize);
+            let taken = rows.iter().fold((1_u64 << end) - 1, |taken, &row| taken | self.used[row]);
+            let colour = taken.trailing_ones() as usize;
+            if colour + 1 < COLOURS {
+                rows.iter().filter(|&&row| row != 0).for_each(|&row| self.used[row] |= 1 << colour);
+                counts[colour] += 1;
+                *chosen = colour;
+            }
+        }
+        let joined: usize = counts.iter().map(|count: &usize| count.div_ceil(WIDTH)).sum();
+        let all = !chosen[..self.rest.len()].contains(&COLOURS);
+        if all && joined < half_empty {
+            for (&index, colour) in self.rest.iter().zip(chosen) {
+                self.places[index as usize] = Place::new(colour, &contacts[index as usize]);
+            }
+            return counts.iter().rposition(|&count| count > 0).map_or(end, |last| last + 1);
+        }
+        for &index in &self.rest {
+            for row in contacts[index as usize].state_rows() {
+                self.used[row as usize] &= (1 << end) - 1;
+            }
+        }
+        end
+    }
+
     fn pack(&mut self) {
         self.groups.clear();
         self.ends.clear();
@@ -173,8 +233,8 @@ mod tests {
         ActiveContact { pair: 0, body_a, body_b, moves, surface, points: 4, round: false }
     }
 
-    /// Each contact is in one group, and no colour touches a body twice.
-    fn check(contacts: &[ActiveContact], bodies: usize) {
+    /// Groups, after checking that each contact is in one and that no colour touches a body twice.
+    fn groups(contacts: &[ActiveContact], bodies: usize) -> usize {
         let mut colours = Colours::default();
         colours.assign(contacts, bodies);
         let mut seen = vec![0; contacts.len()];
@@ -194,6 +254,13 @@ mod tests {
             first = end;
         }
         assert_eq!(seen, vec![1; contacts.len()]);
+        colours.groups.len()
+    }
+
+    #[test]
+    fn a_tower_takes_a_group_less_than_its_colours_would() {
+        let tower: Vec<_> = (0..20).map(|body| contact(body, body + 1)).collect();
+        assert_eq!(groups(&tower, 21), 4);
     }
 
     #[test]
@@ -212,7 +279,7 @@ mod tests {
                         contact(a, if a == b { 0 } else { b })
                     })
                     .collect();
-                check(&contacts, bodies as usize + 1);
+                groups(&contacts, bodies as usize + 1);
             }
         }
     }

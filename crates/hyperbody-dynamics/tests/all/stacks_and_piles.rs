@@ -38,6 +38,32 @@ fn a_stack_of_twenty_tesseracts_stands_for_fifteen_seconds() {
     stack::<4>(20, 15.0);
 }
 
+/// A wall is a pyramid in the xy plane, each body put a little beside its place. Where contacts are too stiff for the sweeps its rows
+/// swing against each other, more and more.
+fn wall<const N: usize>(rows: usize, disorder: f64, seconds: f64) {
+    let mut world = World::new(WorldDef { gravity: down::<N>(), sleeping: false, ..WorldDef::default() }).unwrap();
+    add_floor(&mut world, material(0.5, 0.0));
+    let mut random = Random(12345);
+    for row in 0..rows {
+        let bodies = rows - row;
+        for index in 0..bodies {
+            let along = 1.05 * (index as f64 - 0.5 * (bodies - 1) as f64);
+            let place = Vector::unit(0) * along + Vector::unit(1) * (0.5 + row as f64);
+            let position = place + random.vector(disorder);
+            world.add_body(BodyDef::new(cuboid(Vector::splat(0.5))).position(position)).unwrap();
+        }
+    }
+    run(&mut world, seconds);
+    let fastest = world.bodies().map(|(_, body)| body.velocity().norm()).fold(0.0, f64::max);
+    assert!(fastest < 0.005, "a wall of {rows} rows in {N}D moves at {fastest} m/s after {seconds} s");
+}
+
+#[test]
+fn walls_do_not_ring() {
+    wall::<3>(20, 1e-3, 8.0);
+    wall::<4>(20, 1e-3, 8.0);
+}
+
 /// A pit with a floor at y = 0 and walls at ±`half_width` on every other axis.
 fn pit<const N: usize>(half_width: f64) -> World<N> {
     let mut world = world(down::<N>());
