@@ -26,6 +26,7 @@ impl<const N: usize> World<N> {
             solver: &self.solver,
             gravity: self.gravity,
             tuning: &self.tuning,
+            sleeping: self.sleeping,
         };
         let slots = self.bodies.slots.as_mut_slice();
         let chunk = slots.len().div_ceil(self.integrated.len()).max(1);
@@ -85,6 +86,8 @@ struct Integration<'a, const N: usize> {
     solver: &'a Solver<N>,
     gravity: Vector<N>,
     tuning: &'a Tuning,
+    /// Whether bodies may fall asleep: only then somebody asks how long they have been resting.
+    sleeping: bool,
 }
 
 impl<const N: usize> Integration<'_, N> {
@@ -124,8 +127,10 @@ impl<const N: usize> Integration<'_, N> {
         }
         let spin_before = body.angular_velocity.norm();
         finish(body, self.tuning);
-        let (speed, spin) = (body.velocity.norm(), body.angular_velocity.norm());
-        self.rest(body, before, speed + spin * body.radius);
+        let spin = body.angular_velocity.norm();
+        if self.sleeping {
+            self.rest(body, before, body.velocity.norm() + spin * body.radius);
+        }
         let turned = spin_before.max(spin) * body.radius * self.span.dt;
         let went = body.centre.distance(before.0) + turned;
         if went > self.tuning.speculative_distance.max(body.core_radius) {

@@ -146,14 +146,14 @@ impl<const N: usize> Rotation<N> {
         }
         let velocity = velocity * scale;
         // As many terms as count beside the first order, by Horner's scheme: fourteen at most, for 0.5¹⁴/15! < 2⁻⁵³.
-        let (mut terms, mut next) = (1_u32, 0.5 * bound * scale);
-        while next > f64::EPSILON / 4.0 && terms < 14 {
+        let (mut terms, mut next) = (1, 0.5 * bound * scale);
+        while next > f64::EPSILON / 4.0 && terms < MOST_TERMS {
             terms += 1;
-            next *= bound * scale / f64::from(terms + 1);
+            next *= bound * scale * INVERSE[terms + 1];
         }
         let mut sum = Matrix::IDENTITY;
         for term in (1..=terms).rev() {
-            sum = Matrix::IDENTITY + (velocity * sum) * (1.0 / f64::from(term));
+            sum = Matrix::IDENTITY + (velocity * sum) * INVERSE[term];
         }
         for _ in 0..halvings {
             sum = sum * sum;
@@ -204,6 +204,20 @@ impl<const N: usize> Rotation<N> {
         self.m = self.m * correction;
     }
 }
+
+/// Terms of the exponential series, at most.
+const MOST_TERMS: usize = 14;
+
+/// 1/k, for divisions are waited for.
+const INVERSE: [f64; MOST_TERMS + 2] = {
+    let mut inverse = [0.0; MOST_TERMS + 2];
+    let mut k = 1;
+    while k < inverse.len() {
+        inverse[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    inverse
+};
 
 impl<const N: usize> Default for Rotation<N> {
     fn default() -> Self {
