@@ -220,13 +220,21 @@ impl<const N: usize> SolverBody<N> {
 
     /// Adds `share` times an angular impulse, by the planes of the world, to the scaled angular velocity `spin`.
     pub(crate) fn add_spin(&self, spin: &mut [Real], impulse: &[f64; MAX_PLANES], share: f64) {
-        let turned = (!self.is_ball && self.frame.is_some()).then(|| {
+        let turned = self.frame.is_some().then(|| {
             let mut planes = impulse.iter();
             self.lever(&Bivector::from_fn(|_, _| planes.next().copied().unwrap_or(0.0)))
         });
         for (k, (value, scale)) in spin.iter_mut().zip(&*self.inverse_sqrt_moments).enumerate() {
             let change = turned.map_or_else(|| impulse[k] * scale, |turned| turned[k]);
             *value += (change * share) as Real;
+        }
+    }
+
+    /// [`SolverBody::add_spin`] for a ball, whose moments are all the same: asks for the first of them and for nothing else.
+    pub(crate) fn add_spin_of_ball(&self, spin: &mut [Real], impulse: &[f64; MAX_PLANES], share: f64) {
+        let scale = self.inverse_sqrt_moments[0];
+        for (value, impulse) in spin.iter_mut().zip(&impulse[..Sizes::<N>::K]) {
+            *value += (impulse * scale * share) as Real;
         }
     }
 

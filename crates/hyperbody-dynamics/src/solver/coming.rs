@@ -12,12 +12,22 @@ use super::lanes::Lanes;
 use crate::ahead::{IS_HEARD, fetch, fetch_all};
 use crate::pairs::{Contact, Pairs};
 
+/// What a pass over all blocks comes for.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Errand {
+    /// Making rows.
+    Fill,
+    /// Storing impulses: of bodies, what turns them into spin.
+    Store,
+}
+
 /// What passes over all blocks once a step.
 #[derive(Clone, Copy)]
 pub(super) struct Coming<'a, const N: usize> {
     pub(super) blocks: &'a [Block],
     pub(super) active: &'a [ActiveContact],
     pub(super) bodies: &'a [SolverBody<N>],
+    pub(super) errand: Errand,
 }
 
 impl<const N: usize> Coming<'_, N> {
@@ -36,12 +46,21 @@ impl<const N: usize> Coming<'_, N> {
             // Both keep in front what rows of balls are made of, of moments the first, and at the end what few rows are. How much it
             // is stands in the calls, so that each becomes as many hints and no loop.
             if block.round {
-                let first_moment = offset_of!(SolverBody<N>, inverse_sqrt_moments) + size_of::<f64>();
                 contact.into_iter().for_each(|contact| fetch(contact, offset_of!(Contact<N>, normal_in_a)));
-                bodies.into_iter().for_each(|body| fetch(body, first_moment));
             } else {
                 contact.into_iter().for_each(|contact| fetch(contact, offset_of!(Contact<N>, resistance)));
-                bodies.into_iter().for_each(|body| fetch(body, offset_of!(SolverBody<N>, surface)));
+            }
+            let first_moment = offset_of!(SolverBody<N>, inverse_sqrt_moments) + size_of::<f64>();
+            for body in bodies {
+                match (self.errand, block.round) {
+                    (Errand::Fill, true) => fetch(body, first_moment),
+                    (Errand::Fill, false) => fetch(body, offset_of!(SolverBody<N>, surface)),
+                    (Errand::Store, true) => fetch(&body.inverse_sqrt_moments[0], usize::MAX),
+                    (Errand::Store, false) => {
+                        fetch(&body.inverse_sqrt_moments, usize::MAX);
+                        fetch(&body.frame, usize::MAX);
+                    }
+                }
             }
         }
         for (_, active) in self.contacts(index + 1).filter(|(block, _)| !block.round) {

@@ -42,7 +42,7 @@ use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{PlaneNumbers, Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
-use coming::Coming;
+use coming::{Coming, Errand};
 use contacts::{Arms, Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Respond, Sweep, WarmStart};
 use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
@@ -244,7 +244,7 @@ impl<const N: usize> Solver<N> {
             }
         };
         let coming = |blocks: &[Block], index: usize| {
-            let coming = Coming { blocks, active, bodies };
+            let coming = Coming { blocks, active, bodies, errand: Errand::Fill };
             coming.fetch(index, pairs);
         };
         let (blocks, rows) = (self.contacts.blocks.as_slice(), self.contacts.rows.as_mut_slice());
@@ -358,7 +358,8 @@ impl<const N: usize> Solver<N> {
 
     /// Impulses to start the next step from; and from the spins what contacts added to the angular momentum.
     fn store_impulses(&mut self, input: &mut SolverInput<'_, N>) {
-        let coming = Coming { blocks: &self.contacts.blocks, active: &self.active, bodies: &self.bodies };
+        let blocks = self.contacts.blocks.as_slice();
+        let coming = Coming { blocks, active: &self.active, bodies: &self.bodies, errand: Errand::Store };
         for (index, block) in self.contacts.blocks.iter().enumerate() {
             coming.fetch(index, input.pairs);
             coming.fetch_rows(index, &self.contacts.rows);
@@ -381,8 +382,14 @@ impl<const N: usize> Solver<N> {
                     if a != 0 && b != 0 {
                         let excess = contacts::excess::<N>(block, rows, lane);
                         let share = contact.share_of_b;
-                        self.bodies[a].add_spin(&mut self.state[a * Sizes::<N>::STATE + N..], &excess, share - 1.0);
-                        self.bodies[b].add_spin(&mut self.state[b * Sizes::<N>::STATE + N..], &excess, -share);
+                        for (body, share) in [(a, share - 1.0), (b, -share)] {
+                            let spin = &mut self.state[body * Sizes::<N>::STATE + N..];
+                            if block.round {
+                                self.bodies[body].add_spin_of_ball(spin, &excess, share);
+                            } else {
+                                self.bodies[body].add_spin(spin, &excess, share);
+                            }
+                        }
                     }
                 }
             }
