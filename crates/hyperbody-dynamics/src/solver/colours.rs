@@ -55,7 +55,7 @@ const COLOURS: usize = 64;
 const FEW: usize = 512;
 
 /// Where a contact stands in the order of solving: by colour, then by class, most points first, so that few lanes idle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Place(u16);
 
 impl Place {

@@ -13,7 +13,7 @@ use crate::ahead::{IS_HEARD, fetch, fetch_all};
 use crate::pairs::{Contact, Pairs};
 
 /// What a pass over all blocks comes for.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub(super) enum Errand {
     /// Making rows.
     Fill,
