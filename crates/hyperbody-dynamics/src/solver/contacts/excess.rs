@@ -9,6 +9,7 @@
 //! plank has to take all of it; any part that the ball took would drive it on. `wandering` says who takes how much.
 
 use super::pairing::Pairing;
+use super::parts::Parts;
 use super::round::RoundLayout;
 use super::solve::{PassTimes, Passes};
 use super::{Block, Layout};
@@ -20,13 +21,13 @@ use crate::solver::wide::Wide;
 impl<const N: usize, M: Machine> Passes<N, M> {
     /// The impulse on b of all rows of a block, world axes.
     #[inline(always)]
-    pub(super) fn impulse(machine: M, head: &[Lanes], points: &[Lanes]) -> [Wide<M>; N] {
-        let load = Self::load(machine, points);
+    pub(super) fn impulse(machine: M, rows: &Parts<'_>) -> [Wide<M>; N] {
+        let load = Self::load(machine, rows.points);
         let mut sum = [load; N];
-        for (sum, direction) in sum.iter_mut().zip(&head[Layout::<N>::NORMAL..]) {
+        for (sum, direction) in sum.iter_mut().zip(&rows.header[Layout::<N>::NORMAL..]) {
             *sum = load * *direction;
         }
-        for row in head[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact(Layout::<N>::SLIDE_ROW) {
+        for row in rows.slides.chunks_exact(Layout::<N>::SLIDE_ROW) {
             let impulse = row[Layout::<N>::SLIDE_IMPULSE].on(machine);
             for (sum, direction) in sum.iter_mut().zip(row) {
                 *sum += impulse * *direction;
@@ -38,18 +39,12 @@ impl<const N: usize, M: Machine> Passes<N, M> {
     /// Notes what impulses applied now, after the bodies moved, add to the angular momentum. `before` is the part of the
     /// block's impulse that was applied, and noted, earlier.
     #[inline(always)]
-    pub(super) fn note_excess(
-        head: &mut [Lanes],
-        points: &[Lanes],
-        before: &[Wide<M>; N],
-        p: &Pairing<N, M>,
-        times: &PassTimes,
-    ) {
-        let mut impulse = Self::impulse(p.machine, head, points);
+    pub(super) fn note_excess(rows: &mut Parts<'_>, before: &[Wide<M>; N], p: &Pairing<N, M>, times: &PassTimes) {
+        let mut impulse = Self::impulse(p.machine, rows);
         for (whole, before) in impulse.iter_mut().zip(before) {
             *whole -= *before;
         }
-        let (motion, excess) = head.split_at_mut(Layout::<N>::EXCESS);
+        let (motion, excess) = rows.header.split_at_mut(Layout::<N>::EXCESS);
         let velocity = &motion[Layout::<N>::CENTRE_VELOCITY..];
         let acceleration = &motion[Layout::<N>::CENTRE_ACCELERATION..];
         p.note_excess(excess, &impulse, (velocity, acceleration), times);

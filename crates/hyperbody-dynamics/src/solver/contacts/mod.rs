@@ -14,6 +14,7 @@ mod excess;
 mod layout;
 mod normal;
 mod pairing;
+mod parts;
 mod prepare;
 mod response;
 mod round;

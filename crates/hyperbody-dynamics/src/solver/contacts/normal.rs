@@ -30,28 +30,31 @@ const SWEEPS: usize = 6;
 /// away: a hundred roundings.
 const SLACK: Real = 1e-5;
 
-/// The problem of one block of contacts, lane by lane, and room to solve it in.
+/// The problem of one block of contacts of at most `P` points, lane by lane, and room to solve it in. One of a few points that is made
+/// where it is solved, by a count that the compiler knows, stands in registers.
 #[derive(Clone, Debug)]
-pub(crate) struct NormalProblem {
+pub(crate) struct NormalProblem<const P: usize = MAX> {
     /// Velocity that each row should lose: at the present impulses, bias included.
-    pub(crate) excess: [Lanes; MAX],
+    pub(crate) excess: [Lanes; P],
     /// Impulses held at the start.
-    pub(crate) held: [Lanes; MAX],
+    pub(crate) held: [Lanes; P],
     /// γ: share of the impulse that counts as velocity; zero in rigid rows.
-    pub(crate) softness: [Lanes; MAX],
+    pub(crate) softness: [Lanes; P],
     /// One where a point may press.
-    pub(crate) allowed: [Lanes; MAX],
+    pub(crate) allowed: [Lanes; P],
     /// The solution.
-    pub(crate) impulse: [Lanes; MAX],
-    free: [Lanes; MAX],
-    velocity: [Lanes; MAX],
-    active: [Lanes; MAX],
-    factor: [Lanes; MAX * (MAX + 1) / 2],
+    pub(crate) impulse: [Lanes; P],
+    free: [Lanes; P],
+    velocity: [Lanes; P],
+    active: [Lanes; P],
+    /// Upper triangle.
+    factor: [[Lanes; P]; P],
 }
 
-impl Default for NormalProblem {
+impl<const P: usize> Default for NormalProblem<P> {
+    #[inline(always)]
     fn default() -> Self {
-        let zero = [Lanes::ZERO; MAX];
+        let zero = [Lanes::ZERO; P];
         Self {
             excess: zero,
             held: zero,
@@ -61,7 +64,7 @@ impl Default for NormalProblem {
             free: zero,
             velocity: zero,
             active: zero,
-            factor: [Lanes::ZERO; MAX * (MAX + 1) / 2],
+            factor: [zero; P],
         }
     }
 }
@@ -72,22 +75,12 @@ pub(crate) const fn upper(count: usize, i: usize, j: usize) -> usize {
     i * count - i * (i + 1) / 2 + j
 }
 
-impl NormalProblem {
-    /// Solves for `impulse`. `k` is the response matrix of the rows, upper triangle by rows; `stiffener` what rigid rows
-    /// have on its diagonal.
+impl<const P: usize> NormalProblem<P> {
+    /// Solves for `impulse`, `count` points. `k` is the response matrix of the rows, upper triangle by rows; `stiffener` what
+    /// rigid rows have on its diagonal.
     #[inline(always)]
     pub(crate) fn solve<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize, stiffener: Lanes) {
-        // Loops of a length that the compiler knows take half the time; of eight points it is as much either way.
-        match count {
-            1 if M::UNROLLS => self.solve_rows(machine, k, 1, stiffener),
-            2 if M::UNROLLS => self.solve_rows(machine, k, 2, stiffener),
-            4 if M::UNROLLS => self.solve_rows(machine, k, 4, stiffener),
-            _ => self.solve_rows(machine, k, count, stiffener),
-        }
-    }
-
-    #[inline(always)]
-    fn solve_rows<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize, stiffener: Lanes) {
+        let count = count.min(P);
         let k = &k[..count * (count + 1) / 2];
         let stiffener = stiffener.on(machine);
         let slack = self.set_up(machine, k, count);
@@ -129,37 +122,30 @@ impl NormalProblem {
     #[inline(always)]
     fn factorize<M: Machine>(&mut self, machine: M, k: &[Lanes], count: usize, stiffener: Wide<M>) {
         let one = Wide::splat(machine, 1.0);
-        let (mut rest, mut responses) = (&mut self.factor[..count * (count + 1) / 2], k);
+        let mut responses = k;
         for i in 0..count {
-            let (row, below) = rest.split_at_mut(count - i);
-            let (response, others) = responses.split_at(count - i);
-            (rest, responses) = (below, others);
+            let (response, below) = responses.split_at(count - i);
+            responses = below;
             let active = self.active[i].on(machine);
             let softness = self.softness[i].on(machine);
             let diagonal = softness.select_positive(softness, stiffener) + response[0];
-            row[0] = active.select_positive(diagonal, one).lanes();
-            for ((entry, response), other) in row.iter_mut().zip(response).zip(&self.active[i..]).skip(1) {
-                *entry = (active * *other * *response).lanes();
+            self.factor[i][i] = active.select_positive(diagonal, one).lanes();
+            for j in i + 1..count {
+                self.factor[i][j] = (active * self.active[j] * response[j - i]).lanes();
             }
         }
-        let mut rest = &mut self.factor[..count * (count + 1) / 2];
         for p in 0..count {
-            let (row, below) = rest.split_at_mut(count - p);
-            let inverse = one.div(row[0].on(machine));
-            row[0] = inverse.lanes();
-            let mut targets = &mut *below;
-            for i in 1..row.len() {
-                let (target, next) = targets.split_at_mut(row.len() - i);
-                targets = next;
-                let scaled = inverse * row[i];
-                for (entry, pivot) in target.iter_mut().zip(&row[i..]) {
-                    *entry = (entry.on(machine) - scaled * *pivot).lanes();
+            let inverse = one.div(self.factor[p][p].on(machine));
+            self.factor[p][p] = inverse.lanes();
+            for i in p + 1..count {
+                let scaled = inverse * self.factor[p][i];
+                for j in i..count {
+                    self.factor[i][j] = (self.factor[i][j].on(machine) - scaled * self.factor[p][j]).lanes();
                 }
             }
-            for entry in &mut row[1..] {
-                *entry = (inverse * *entry).lanes();
+            for i in p + 1..count {
+                self.factor[p][i] = (inverse * self.factor[p][i]).lanes();
             }
-            rest = below;
         }
     }
 
@@ -171,21 +157,16 @@ impl NormalProblem {
             let rigid = self.softness[i].on(machine).select_positive(zero, stiffener * self.held[i]);
             self.impulse[i] = ((rigid - self.free[i]) * self.active[i]).lanes();
         }
-        let mut rest = &self.factor[..count * (count + 1) / 2];
         for p in 0..count {
-            let (row, below) = rest.split_at(count - p);
-            rest = below;
             let known = self.impulse[p].on(machine);
-            for (value, entry) in self.impulse[p + 1..count].iter_mut().zip(&row[1..]) {
-                *value = (value.on(machine) - known * *entry).lanes();
+            for i in p + 1..count {
+                self.impulse[i] = (self.impulse[i].on(machine) - known * self.factor[p][i]).lanes();
             }
         }
         for p in (0..count).rev() {
-            let start = upper(count, p, p);
-            let row = &self.factor[start..start + count - p];
-            let mut value = self.impulse[p].on(machine) * row[0];
-            for (entry, later) in row[1..].iter().zip(&self.impulse[p + 1..count]) {
-                value -= entry.on(machine) * *later;
+            let mut value = self.impulse[p].on(machine) * self.factor[p][p];
+            for i in p + 1..count {
+                value -= self.factor[p][i].on(machine) * self.impulse[i];
             }
             self.impulse[p] = value.lanes();
         }
@@ -303,7 +284,7 @@ mod tests {
                     k[upper(count, i, j)] = Lanes::splat(product);
                 }
             }
-            let mut problem = NormalProblem::default();
+            let mut problem = <NormalProblem>::default();
             // Velocities that rigid motion can have, so that a solution without force elsewhere exists.
             let motion = [random() - 0.5, random(), random(), random()];
             for i in 0..count {
@@ -340,7 +321,7 @@ mod tests {
         let count = 8;
         for trial in 0..200 {
             let mut k = vec![Lanes::ZERO; count * (count + 1) / 2];
-            let mut problem = NormalProblem::default();
+            let mut problem = <NormalProblem>::default();
             let mut fill = |lane: usize, points: usize, k: &mut [Lanes], problem: &mut NormalProblem| {
                 let rows: Vec<[Real; 3]> = (0..points).map(|_| [1.0, random(), random()]).collect();
                 for i in 0..count {

@@ -4,6 +4,7 @@ use std::marker::PhantomData;
 
 use super::normal::{NormalProblem, upper};
 use super::pairing::{Pairing, States};
+use super::parts::Parts;
 use super::round::RoundPasses;
 use super::{Block, ContactRows, Layout};
 use crate::solver::bodies::Sizes;
@@ -87,32 +88,29 @@ impl<const N: usize, M: Machine> Passes<N, M> {
     fn warm_start(machine: M, contacts: &mut ContactRows, state: &mut [Real]) {
         let mut states = States::InPlace(state);
         for block in &contacts.blocks {
-            let rows = &contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
+            let rows = &mut contacts.rows[block.start..];
             if block.round {
                 RoundPasses::<N, M>::warm_start(machine, block, rows, &mut states);
                 continue;
             }
             let mut p = Pairing::<N, M>::gather(machine, block, rows, states.read());
-            for row in rows[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact(Layout::<N>::SLIDE_ROW) {
+            let rows = Parts::cut::<N>(block, block.points, rows);
+            for row in rows.slides.chunks_exact(Layout::<N>::SLIDE_ROW) {
                 let impulse = row[Layout::<N>::SLIDE_IMPULSE].on(machine);
                 p.apply_linear(&row[..N], impulse);
                 p.apply_angular(&row[N..N + 2 * Self::K], impulse);
             }
-            let (field_start, points_start) = (Layout::<N>::field_start(block), Layout::<N>::points_start(block));
-            for row in rows[Layout::<N>::TWIST_ROWS..field_start].chunks_exact(Layout::<N>::TWIST_ROW) {
+            for row in rows.twists.chunks_exact(Layout::<N>::TWIST_ROW) {
                 p.apply_angular(&row[..2 * Self::K], row[Layout::<N>::TWIST_IMPULSE].on(machine));
             }
-            let (head, points) = rows.split_at(points_start);
             let mut sum = [Wide::zero(machine); N];
-            let end = block.points * Layout::<N>::POINT_ROW;
-            for row in points[..end].chunks_exact(Layout::<N>::POINT_ROW) {
+            for row in rows.points.chunks_exact(Layout::<N>::POINT_ROW) {
                 add_at(&mut sum, row[Layout::<N>::POINT_IMPULSE].on(machine), &row[Layout::<N>::POINT_LEVER..]);
             }
-            Self::apply_to_field(block, head, &sum, &mut p);
+            Self::apply_to_field(&rows, &sum, &mut p);
             if block.resists {
-                let resistance = &rows[Layout::<N>::resistance_start(block)..];
-                let impulses = &resistance[Layout::<N>::ROLLING_IMPULSES..];
-                for (row, impulse) in Self::field(block, head).skip(1).zip(impulses) {
+                let impulses = &rows.resistance[Layout::<N>::ROLLING_IMPULSES..];
+                for (row, impulse) in Self::field(rows.field).skip(1).zip(impulses) {
                     p.apply_angular(row, impulse.on(machine));
                 }
             }
@@ -125,53 +123,65 @@ impl<const N: usize, M: Machine> Passes<N, M> {
         let Solve { blocks, rows, problem, mut states, times } = pass;
         let first = blocks.first().map_or(0, |block| block.start);
         for block in blocks {
-            let rows = &mut rows[block.start - first..][..Layout::<N>::block_len(block)];
+            let rows = &mut rows[block.start - first..];
             if block.round {
                 RoundPasses::<N, M>::solve(machine, block, rows, &mut states, times);
                 continue;
             }
             let mut p = Pairing::<N, M>::gather(machine, block, rows, states.read());
-            let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
-            let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
-            let (response, resistance) = rest.split_at_mut(block.points * (block.points + 1) / 2);
-            // Before the move warm starting has just applied all of it.
-            let before = if times.push { [Wide::zero(machine); N] } else { Self::impulse(machine, head, points) };
-            // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
-            // load, so that a sliding body loses exactly μ times its weight.
-            if times.push {
-                Self::rub(block, head, points, resistance, &mut p, times);
-            }
-            Self::pose(block, head, points, &p, times, problem);
-            Self::press(block, head, points, response, &mut p, problem);
-            if !times.push {
-                for row in points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
-                    let sum = row[Layout::<N>::POINT_STEP_IMPULSE].on(machine) + row[Layout::<N>::POINT_IMPULSE];
-                    row[Layout::<N>::POINT_STEP_IMPULSE] = sum.lanes();
+            // Loops of a length that the compiler knows take half the time; of eight points it is as much either way.
+            match block.points {
+                1 if M::UNROLLS => Self::solve_block(block, rows, 1, &mut p, times, &mut NormalProblem::<1>::default()),
+                2 if M::UNROLLS => Self::solve_block(block, rows, 2, &mut p, times, &mut NormalProblem::<2>::default()),
+                4 if M::UNROLLS && N > 2 => {
+                    Self::solve_block(block, rows, 4, &mut p, times, &mut NormalProblem::<4>::default());
                 }
-                Self::rub(block, head, points, resistance, &mut p, times);
+                count => Self::solve_block(block, rows, count, &mut p, times, problem),
             }
-            Self::note_excess(head, points, &before, &p, times);
             p.scatter(block, &mut states);
         }
     }
 
     #[inline(always)]
-    fn rub(
+    fn solve_block<const P: usize>(
         block: &Block,
-        head: &mut [Lanes],
-        points: &[Lanes],
-        resistance: &mut [Lanes],
+        rows: &mut [Lanes],
+        count: usize,
         p: &mut Pairing<N, M>,
         times: &PassTimes,
+        problem: &mut NormalProblem<P>,
     ) {
-        Self::slide(head, points, p, times);
-        if block.twists > 0 {
-            let load = Self::load(p.machine, points);
-            let resisted = if block.resists { Some(load * resistance[Layout::<N>::TWISTING]) } else { None };
-            Self::twist(head, points, resisted, p, times);
+        let machine = p.machine;
+        let mut rows = Parts::cut::<N>(block, count, rows);
+        // Before the move warm starting has just applied all of it.
+        let before = if times.push { [Wide::zero(machine); N] } else { Self::impulse(machine, &rows) };
+        // While positions are at stake the normal rows have the last word; afterwards friction has it, with the full
+        // load, so that a sliding body loses exactly μ times its weight.
+        if times.push {
+            Self::rub(block, &mut rows, p, times);
+        }
+        Self::pose(&rows, p, times, problem);
+        Self::press(&mut rows, count, p, problem);
+        if !times.push {
+            for row in rows.points.chunks_exact_mut(Layout::<N>::POINT_ROW) {
+                let sum = row[Layout::<N>::POINT_STEP_IMPULSE].on(machine) + row[Layout::<N>::POINT_IMPULSE];
+                row[Layout::<N>::POINT_STEP_IMPULSE] = sum.lanes();
+            }
+            Self::rub(block, &mut rows, p, times);
+        }
+        Self::note_excess(&mut rows, &before, p, times);
+    }
+
+    #[inline(always)]
+    fn rub(block: &Block, rows: &mut Parts<'_>, p: &mut Pairing<N, M>, times: &PassTimes) {
+        Self::slide(rows, p, times);
+        if !rows.twists.is_empty() {
+            let load = Self::load(p.machine, rows.points);
+            let resisted = if block.resists { Some(load * rows.resistance[Layout::<N>::TWISTING]) } else { None };
+            Self::twist(rows, resisted, p, times);
         }
         if block.resists {
-            Self::roll(block, head, points, resistance, p, times);
+            Self::roll(rows, p, times);
         }
     }
 
@@ -207,27 +217,20 @@ impl<const N: usize, M: Machine> Passes<N, M> {
 
     /// Resistance to rolling: within the ball of radius c·Σλ in the planes of the normal and the tangents, against the turn.
     #[inline(always)]
-    fn roll(
-        block: &Block,
-        head: &[Lanes],
-        points: &[Lanes],
-        resistance: &mut [Lanes],
-        p: &mut Pairing<N, M>,
-        times: &PassTimes,
-    ) {
+    fn roll(rows: &mut Parts<'_>, p: &mut Pairing<N, M>, times: &PassTimes) {
         let machine = p.machine;
-        let limit = Self::load(machine, points) * resistance[Layout::<N>::ROLLING];
-        let mass = resistance[Layout::<N>::ROLLING_MASS].on(machine);
-        let impulses = &mut resistance[Layout::<N>::ROLLING_IMPULSES..];
+        let limit = Self::load(machine, rows.points) * rows.resistance[Layout::<N>::ROLLING];
+        let mass = rows.resistance[Layout::<N>::ROLLING_MASS].on(machine);
+        let impulses = &mut rows.resistance[Layout::<N>::ROLLING_IMPULSES..];
         let elapsed = Wide::splat(machine, times.elapsed);
         let mut wanted = [Wide::zero(machine); N];
-        for ((wanted, row), held) in wanted.iter_mut().zip(Self::field(block, head).skip(1)).zip(&*impulses) {
+        for ((wanted, row), held) in wanted.iter_mut().zip(Self::field(rows.field).skip(1)).zip(&*impulses) {
             let rate = Self::base(row[Layout::<N>::FIELD_VELOCITY], row[Layout::<N>::FIELD_ACCELERATION], elapsed)
                 + p.measure_angular(row);
             *wanted = held.on(machine) - mass * rate;
         }
         let factor = Self::share_within(limit, &wanted[..Layout::<N>::SLIDES]);
-        for ((wanted, row), held) in wanted.iter().zip(Self::field(block, head).skip(1)).zip(impulses) {
+        for ((wanted, row), held) in wanted.iter().zip(Self::field(rows.field).skip(1)).zip(impulses) {
             let impulse = *wanted * factor;
             p.apply_angular(row, impulse - *held);
             *held = impulse.lanes();
@@ -235,12 +238,12 @@ impl<const N: usize, M: Machine> Passes<N, M> {
     }
 
     #[inline(always)]
-    fn slide(head: &mut [Lanes], points: &[Lanes], p: &mut Pairing<N, M>, times: &PassTimes) {
+    fn slide(rows: &mut Parts<'_>, p: &mut Pairing<N, M>, times: &PassTimes) {
         let machine = p.machine;
-        let limit = Self::load(machine, points) * head[Layout::<N>::FRICTION];
+        let limit = Self::load(machine, rows.points) * rows.header[Layout::<N>::FRICTION];
         let elapsed = Wide::splat(machine, times.elapsed);
         let slides = Layout::<N>::SLIDES;
-        let (rows, masses) = head[Layout::<N>::HEADER..].split_at_mut(slides * Layout::<N>::SLIDE_ROW);
+        let (rows, masses) = (&mut *rows.slides, &*rows.slide_mass);
         let mut velocity = [Wide::zero(machine); N];
         for (t, row) in rows.chunks_exact(Layout::<N>::SLIDE_ROW).enumerate() {
             velocity[t] = Self::base(row[Layout::<N>::SLIDE_VELOCITY], row[Layout::<N>::SLIDE_ACCELERATION], elapsed)
@@ -274,19 +277,12 @@ impl<const N: usize, M: Machine> Passes<N, M> {
     }
 
     #[inline(always)]
-    fn twist(
-        head: &mut [Lanes],
-        points: &[Lanes],
-        resisted: Option<Wide<M>>,
-        p: &mut Pairing<N, M>,
-        times: &PassTimes,
-    ) {
+    fn twist(rows: &mut Parts<'_>, resisted: Option<Wide<M>>, p: &mut Pairing<N, M>, times: &PassTimes) {
         let machine = p.machine;
-        let mass = head[Layout::<N>::TWIST_MASS].on(machine);
-        let friction = head[Layout::<N>::FRICTION];
+        let mass = rows.header[Layout::<N>::TWIST_MASS].on(machine);
+        let friction = rows.header[Layout::<N>::FRICTION];
         let elapsed = Wide::splat(machine, times.elapsed);
-        let rows =
-            &mut head[Layout::<N>::TWIST_ROWS..Layout::<N>::TWIST_ROWS + Layout::<N>::TWISTS * Layout::<N>::TWIST_ROW];
+        let (rows, points) = (&mut rows.twists[..Layout::<N>::TWISTS * Layout::<N>::TWIST_ROW], &*rows.points);
         let mut wanted = [Wide::zero(machine); MAX];
         let mut largest = Wide::splat(machine, Real::MIN_POSITIVE);
         for (t, row) in rows.chunks_exact(Layout::<N>::TWIST_ROW).enumerate() {
@@ -359,33 +355,26 @@ impl<const N: usize, M: Machine> Passes<N, M> {
 
     /// Poses the problem of a block's normal rows.
     #[inline(always)]
-    fn pose(
-        block: &Block,
-        head: &[Lanes],
-        points: &[Lanes],
-        p: &Pairing<N, M>,
-        times: &PassTimes,
-        problem: &mut NormalProblem,
-    ) {
+    fn pose<const P: usize>(rows: &Parts<'_>, p: &Pairing<N, M>, times: &PassTimes, problem: &mut NormalProblem<P>) {
         let machine = p.machine;
-        let normal = &head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N];
+        let normal = Self::normal(rows);
         let zero = Wide::zero(machine);
         let elapsed = Wide::splat(machine, times.elapsed);
         let (moved, moved_sq) = (Wide::splat(machine, times.moved), Wide::splat(machine, times.moved_sq));
         let (bias_rate, softness) = if times.push {
-            (head[Layout::<N>::BIAS_RATE].on(machine), head[Layout::<N>::SOFTNESS].on(machine))
+            (rows.header[Layout::<N>::BIAS_RATE].on(machine), rows.header[Layout::<N>::SOFTNESS].on(machine))
         } else {
             (zero, zero)
         };
         let (mut closed, mut velocities) = ([zero; N], [zero; N]);
-        for (t, row) in Self::field(block, head).enumerate() {
+        for (t, row) in Self::field(rows.field).enumerate() {
             let (velocity, acceleration) = (row[Layout::<N>::FIELD_VELOCITY], row[Layout::<N>::FIELD_ACCELERATION]);
             closed[t] = moved * velocity + moved_sq * acceleration + p.moved_angular(row);
             velocities[t] = Self::base(velocity, acceleration, elapsed) + p.measure_angular(row);
         }
         closed[0] += p.moved_linear(normal);
         velocities[0] += p.measure_linear(normal);
-        for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
+        for (index, row) in rows.points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             let lever = &row[Layout::<N>::POINT_LEVER..];
             let gap = row[Layout::<N>::POINT_GAP].on(machine) + row[Layout::<N>::POINT_ARC] + value_at(&closed, lever);
             let velocity = value_at(&velocities, lever);
@@ -406,56 +395,53 @@ impl<const N: usize, M: Machine> Passes<N, M> {
 
     /// The rows of the normal field.
     #[inline(always)]
-    fn field<'a>(block: &Block, head: &'a [Lanes]) -> std::slice::ChunksExact<'a, Lanes> {
-        head[Layout::<N>::field_start(block)..].chunks_exact(Layout::<N>::FIELD_ROW)
+    fn field(rows: &[Lanes]) -> std::slice::ChunksExact<'_, Lanes> {
+        rows.chunks_exact(Layout::<N>::FIELD_ROW)
+    }
+
+    #[inline(always)]
+    fn normal<'a>(rows: &'a Parts<'_>) -> &'a [Lanes] {
+        &rows.header[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]
     }
 
     /// Applies impulses along the normal: their sum, and their moments along the tangents.
     #[inline(always)]
-    fn apply_to_field(block: &Block, head: &[Lanes], sum: &[Wide<M>; N], p: &mut Pairing<N, M>) {
-        for (row, impulse) in Self::field(block, head).zip(sum) {
+    fn apply_to_field(rows: &Parts<'_>, sum: &[Wide<M>; N], p: &mut Pairing<N, M>) {
+        for (row, impulse) in Self::field(rows.field).zip(sum) {
             p.apply_angular(row, *impulse);
         }
-        p.apply_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N], sum[0]);
+        p.apply_linear(Self::normal(rows), sum[0]);
     }
 
     /// Solves it and applies the change of impulses.
     #[inline(always)]
-    fn press(
-        block: &Block,
-        head: &[Lanes],
-        points: &mut [Lanes],
-        response: &[Lanes],
+    fn press<const P: usize>(
+        rows: &mut Parts<'_>,
+        count: usize,
         p: &mut Pairing<N, M>,
-        problem: &mut NormalProblem,
+        problem: &mut NormalProblem<P>,
     ) {
         let machine = p.machine;
         let (zero, one) = (Wide::zero(machine), Wide::splat(machine, 1.0));
-        for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
+        for (index, row) in rows.points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             problem.held[index] = row[Layout::<N>::POINT_IMPULSE];
             // Lanes with fewer points have no response there.
-            let response = response[upper(block.points, index, index)].on(machine);
+            let response = rows.response[upper(count, index, index)].on(machine);
             problem.allowed[index] = response.select_positive(one, zero).lanes();
         }
-        problem.solve(machine, response, block.points, head[Layout::<N>::STIFFENER]);
-        Self::apply_solution(block, head, points, p, problem);
+        problem.solve(machine, rows.response, count, rows.header[Layout::<N>::STIFFENER]);
+        Self::apply_solution(rows, p, problem);
     }
 
     #[inline(always)]
-    fn apply_solution(
-        block: &Block,
-        head: &[Lanes],
-        points: &mut [Lanes],
-        p: &mut Pairing<N, M>,
-        problem: &NormalProblem,
-    ) {
+    fn apply_solution<const P: usize>(rows: &mut Parts<'_>, p: &mut Pairing<N, M>, problem: &NormalProblem<P>) {
         let mut sum = [Wide::zero(p.machine); N];
-        for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
+        for (index, row) in rows.points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
             let impulse = problem.impulse[index];
             row[Layout::<N>::POINT_IMPULSE] = impulse;
             add_at(&mut sum, impulse.on(p.machine) - problem.held[index], &row[Layout::<N>::POINT_LEVER..]);
         }
-        Self::apply_to_field(block, head, &sum, p);
+        Self::apply_to_field(rows, &sum, p);
     }
 
     #[inline(always)]
@@ -463,53 +449,44 @@ impl<const N: usize, M: Machine> Passes<N, M> {
         let ContactRows { blocks, rows, problem, .. } = contacts;
         let mut states = States::InPlace(state);
         for block in blocks.iter().filter(|block| block.bounces) {
-            let rows = &mut rows[block.start..block.start + Layout::<N>::block_len(block)];
+            let rows = &mut rows[block.start..];
             if block.round {
                 RoundPasses::<N, M>::bounce(machine, block, rows, &mut states, times);
                 continue;
             }
             let mut p = Pairing::<N, M>::gather(machine, block, rows, states.read());
-            let (head, rest) = rows.split_at_mut(Layout::<N>::points_start(block));
-            let (points, rest) = rest.split_at_mut(block.points * Layout::<N>::POINT_ROW);
-            let response = &rest[..block.points * (block.points + 1) / 2];
-            let before = Self::impulse(machine, head, points);
-            Self::pose_bounce(block, head, points, &p, times, problem);
-            problem.solve(machine, response, block.points, head[Layout::<N>::STIFFENER]);
+            let mut rows = Parts::cut::<N>(block, block.points, rows);
+            let before = Self::impulse(machine, &rows);
+            Self::pose_bounce(&rows, &p, times, problem);
+            problem.solve(machine, rows.response, block.points, rows.header[Layout::<N>::STIFFENER]);
             // Lanes that don't bounce keep what they have.
-            let restitution = head[Layout::<N>::RESTITUTION].on(machine);
-            for (index, row) in points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
+            let restitution = rows.header[Layout::<N>::RESTITUTION].on(machine);
+            for (index, row) in rows.points.chunks_exact_mut(Layout::<N>::POINT_ROW).enumerate() {
                 let (solved, held) = (problem.impulse[index].on(machine), problem.held[index].on(machine));
                 let impulse = restitution.select_positive(solved, held);
                 problem.impulse[index] = impulse.lanes();
                 let sum = row[Layout::<N>::POINT_STEP_IMPULSE].on(machine) + (impulse - held);
                 row[Layout::<N>::POINT_STEP_IMPULSE] = sum.lanes();
             }
-            Self::apply_solution(block, head, points, &mut p, problem);
-            Self::note_excess(head, points, &before, &p, times);
+            Self::apply_solution(&mut rows, &mut p, problem);
+            Self::note_excess(&mut rows, &before, &p, times);
             p.scatter(block, &mut states);
         }
     }
 
     /// Poses the problem of a block's bounces.
     #[inline(always)]
-    fn pose_bounce(
-        block: &Block,
-        head: &[Lanes],
-        points: &[Lanes],
-        p: &Pairing<N, M>,
-        times: &PassTimes,
-        problem: &mut NormalProblem,
-    ) {
+    fn pose_bounce(rows: &Parts<'_>, p: &Pairing<N, M>, times: &PassTimes, problem: &mut NormalProblem) {
         let zero = Wide::zero(p.machine);
-        let restitution = head[Layout::<N>::RESTITUTION].on(p.machine);
+        let restitution = rows.header[Layout::<N>::RESTITUTION].on(p.machine);
         let (mut starts, mut accelerations, mut changes) = ([zero; N], [zero; N], [zero; N]);
-        for (t, row) in Self::field(block, head).enumerate() {
+        for (t, row) in Self::field(rows.field).enumerate() {
             starts[t] = row[Layout::<N>::FIELD_VELOCITY].on(p.machine);
             accelerations[t] = row[Layout::<N>::FIELD_ACCELERATION].on(p.machine);
             changes[t] = p.measure_angular(row);
         }
-        changes[0] += p.measure_linear(&head[Layout::<N>::NORMAL..Layout::<N>::NORMAL + N]);
-        for (index, row) in points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
+        changes[0] += p.measure_linear(Self::normal(rows));
+        for (index, row) in rows.points.chunks_exact(Layout::<N>::POINT_ROW).enumerate() {
             let lever = &row[Layout::<N>::POINT_LEVER..];
             let gap = row[Layout::<N>::POINT_GAP].on(p.machine);
             let of_row = (value_at(&starts, lever), value_at(&accelerations, lever), gap);
