@@ -462,17 +462,12 @@ pub(crate) fn meet_first<const N: usize>(
 ) -> Contact<N> {
     Contact {
         touches: Touches::with_room(most_points),
-        normal: Vector::ZERO,
         friction: body_a.material.combined_friction(&body_b.material),
         restitution: body_a.material.combined_restitution(&body_b.material),
         resistance: body_a.material.combined_resistance(&body_b.material),
-        surface: Vector::ZERO,
-        share_of_b: 0.5,
-        friction_impulse: Vector::ZERO,
-        twist_impulse: Bivector::ZERO,
-        normal_in_a: Vector::ZERO,
         anchors: Vec::with_capacity(most_points),
         radii: (a.rounding(), b.rounding()),
+        ..Contact::NONE
     }
 }
 

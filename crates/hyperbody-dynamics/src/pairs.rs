@@ -168,6 +168,22 @@ pub(crate) struct Contact<const N: usize> {
 }
 
 impl<const N: usize> Contact<N> {
+    /// Nothing touches anything.
+    pub(crate) const NONE: Self = Self {
+        touches: Touches::List(Vec::new()),
+        normal: Vector::ZERO,
+        friction: 0.0,
+        restitution: 0.0,
+        share_of_b: 0.5,
+        friction_impulse: Vector::ZERO,
+        surface: Vector::ZERO,
+        normal_in_a: Vector::ZERO,
+        anchors: Vec::new(),
+        twist_impulse: Bivector::ZERO,
+        resistance: (0.0, 0.0),
+        radii: (0.0, 0.0),
+    };
+
     /// Forgets points, normal and the impulses of friction.
     pub(crate) fn clear(&mut self) {
         self.touches.clear();

@@ -36,26 +36,27 @@ impl<const N: usize> Sizes<N> {
 
 /// A number a plane, in lexicographic order. A length of N(N−1)/2 can't be said in the type; 3N is enough up to 7D.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlaneNumbers<const N: usize>([[f64; N]; 3]);
+pub(crate) struct PlaneNumbers<const N: usize, T = f64>([[T; N]; 3]);
 
-impl<const N: usize> PlaneNumbers<N> {
-    pub(crate) const fn splat(value: f64) -> Self {
+impl<const N: usize, T: Copy> PlaneNumbers<N, T> {
+    #[inline(always)]
+    pub(crate) const fn splat(value: T) -> Self {
         Self([[value; N]; 3])
     }
 }
 
-impl<const N: usize> Deref for PlaneNumbers<N> {
-    type Target = [f64];
+impl<const N: usize, T> Deref for PlaneNumbers<N, T> {
+    type Target = [T];
 
-    #[inline]
-    fn deref(&self) -> &[f64] {
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
         &self.0.as_flattened()[..Sizes::<N>::K]
     }
 }
 
-impl<const N: usize> DerefMut for PlaneNumbers<N> {
-    #[inline]
-    fn deref_mut(&mut self) -> &mut [f64] {
+impl<const N: usize, T> DerefMut for PlaneNumbers<N, T> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
         &mut self.0.as_flattened_mut()[..Sizes::<N>::K]
     }
 }
@@ -93,45 +94,40 @@ pub(crate) struct SolverBody<const N: usize> {
 }
 
 impl<const N: usize> SolverBody<N> {
+    /// Whatever rests and is not moved by impulses; where it is does not matter.
+    pub(crate) const RESTING: Self = Self {
+        inverse_sqrt_mass: 0.0,
+        slot: u32::MAX,
+        is_ball: false,
+        spins_up: false,
+        runs: false,
+        centre: Vector::ZERO,
+        velocity: Vector::ZERO,
+        acceleration: Vector::ZERO,
+        angular_velocity: Bivector::ZERO,
+        inverse_sqrt_moments: PlaneNumbers::splat(0.0),
+        frame: None,
+        surface: Vector::ZERO,
+        added_moment: 0.0,
+        angular_acceleration: Bivector::ZERO,
+    };
+
     /// A body at rest at the origin with moments of 1 kg·m², for tests.
     #[cfg(test)]
     pub(crate) fn with_unit_moments(inverse_sqrt_mass: f64) -> Self {
-        Self {
-            slot: 0,
-            inverse_sqrt_mass,
-            frame: None,
-            inverse_sqrt_moments: PlaneNumbers::splat(1.0),
-            added_moment: 0.0,
-            is_ball: false,
-            spins_up: false,
-            runs: false,
-            centre: Vector::ZERO,
-            velocity: Vector::ZERO,
-            angular_velocity: Bivector::ZERO,
-            acceleration: Vector::ZERO,
-            angular_acceleration: Bivector::ZERO,
-            surface: Vector::ZERO,
-        }
+        Self { slot: 0, inverse_sqrt_mass, inverse_sqrt_moments: PlaneNumbers::splat(1.0), ..Self::RESTING }
     }
 
     /// A body that no impulse moves.
     pub(crate) fn immovable(body: &Body<N>) -> Self {
         let surface = body.surface_in_world();
         Self {
-            slot: u32::MAX,
-            inverse_sqrt_mass: 0.0,
-            frame: None,
-            inverse_sqrt_moments: PlaneNumbers::splat(0.0),
-            added_moment: 0.0,
-            is_ball: false,
-            spins_up: false,
             runs: surface != Vector::ZERO,
             centre: body.centre,
             velocity: body.velocity,
             angular_velocity: body.angular_velocity,
-            acceleration: Vector::ZERO,
-            angular_acceleration: Bivector::ZERO,
             surface,
+            ..Self::RESTING
         }
     }
 
@@ -167,16 +163,6 @@ impl<const N: usize> SolverBody<N> {
             acceleration: gravity * body.gravity_scale + body.force * body.inverse_mass,
             angular_acceleration,
             surface,
-        }
-    }
-
-    /// How much faster it spins up than another body, base motion.
-    #[inline]
-    pub(crate) fn spin_up_against(&self, other: &Self) -> Bivector<N> {
-        if self.spins_up || other.spins_up {
-            self.angular_acceleration - other.angular_acceleration
-        } else {
-            Bivector::ZERO
         }
     }
 
@@ -236,18 +222,6 @@ impl<const N: usize> SolverBody<N> {
         for (value, impulse) in spin.iter_mut().zip(&impulse[..Sizes::<N>::K]) {
             *value += (impulse * scale * share) as Real;
         }
-    }
-
-    /// Base velocity of the point at offset `r` at the start of the step.
-    #[inline]
-    pub(crate) fn base_velocity_at(&self, r: Vector<N>) -> Vector<N> {
-        self.velocity + self.angular_velocity.act_on(r)
-    }
-
-    /// Base acceleration of the point at offset `r`.
-    #[inline]
-    pub(crate) fn base_acceleration_at(&self, r: Vector<N>) -> Vector<N> {
-        if self.spins_up { self.acceleration + self.angular_acceleration.act_on(r) } else { self.acceleration }
     }
 
     /// A bivector of the solver frame, scaled by 1/√I (velocities, displacements), in the world.

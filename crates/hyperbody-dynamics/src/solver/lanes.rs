@@ -12,6 +12,20 @@ pub(crate) const WIDTH: usize = 8;
 #[repr(C, align(32))]
 pub(crate) struct Lanes(pub(crate) [Real; WIDTH]);
 
+/// The same in double precision. Starts a line of cache, so that no load meets two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub(crate) struct DoubleLanes(pub(crate) [f64; WIDTH]);
+
+impl DoubleLanes {
+    pub(crate) const ZERO: Self = Self::splat(0.0);
+
+    #[inline(always)]
+    pub(crate) const fn splat(value: f64) -> Self {
+        Self([value; WIDTH])
+    }
+}
+
 impl Lanes {
     pub(crate) const ZERO: Self = Self([0.0; WIDTH]);
 

@@ -47,6 +47,13 @@ pub(crate) trait Machine: Copy {
     fn max_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
     /// 1/a where a > 0, else 0.
     fn inverse_or_zero(self, a: Self::Doubles) -> Self::Doubles;
+    /// `positive` where `of` > 0, else `otherwise`.
+    fn select_positive_doubles(
+        self,
+        of: Self::Doubles,
+        positive: Self::Doubles,
+        otherwise: Self::Doubles,
+    ) -> Self::Doubles;
 }
 
 /// Work that is compiled anew for every kind. `run` and all that it calls must be `#[inline(always)]`: a function of its
@@ -239,6 +246,22 @@ impl Machine for Plain {
     fn inverse_or_zero(self, a: [f64; WIDTH]) -> [f64; WIDTH] {
         zip_doubles(a, a, |a, _| if a > 0.0 { 1.0 / a } else { 0.0 })
     }
+
+    #[inline(always)]
+    fn select_positive_doubles(
+        self,
+        of: [f64; WIDTH],
+        positive: [f64; WIDTH],
+        otherwise: [f64; WIDTH],
+    ) -> [f64; WIDTH] {
+        let mut result = otherwise;
+        for lane in 0..WIDTH {
+            if of[lane] > 0.0 {
+                result[lane] = positive[lane];
+            }
+        }
+        result
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -291,6 +314,13 @@ mod avx {
             let avx = self.0.avx;
             let mask = avx._mm256_cmp_pd::<_CMP_GT_OQ>(a, avx._mm256_setzero_pd());
             avx._mm256_and_pd(avx._mm256_div_pd(avx._mm256_set1_pd(1.0), a), mask)
+        }
+
+        #[inline(always)]
+        fn half_select_positive(self, of: __m256d, positive: __m256d, otherwise: __m256d) -> __m256d {
+            let avx = self.0.avx;
+            let mask = avx._mm256_cmp_pd::<_CMP_GT_OQ>(of, avx._mm256_setzero_pd());
+            avx._mm256_blendv_pd(otherwise, positive, mask)
         }
 
         #[inline]
@@ -439,6 +469,17 @@ mod avx {
         fn inverse_or_zero(self, (low, high): Self::Doubles) -> Self::Doubles {
             (self.half_inverse_or_zero(low), self.half_inverse_or_zero(high))
         }
+
+        #[inline(always)]
+        fn select_positive_doubles(
+            self,
+            of: Self::Doubles,
+            positive: Self::Doubles,
+            otherwise: Self::Doubles,
+        ) -> Self::Doubles {
+            let low = self.half_select_positive(of.0, positive.0, otherwise.0);
+            (low, self.half_select_positive(of.1, positive.1, otherwise.1))
+        }
     }
 }
 
@@ -466,7 +507,16 @@ mod tests {
                 let positive = if a.all_positive() { 1.0 } else { 0.0 };
                 results.push(Wide::splat(machine, positive).lanes());
                 let (x, y) = (a.doubles(), b.doubles());
-                for value in [x + y, x - y, x * y, x.max(y), (x * x).sqrt(), x.inverse_or_zero()] {
+                for value in [
+                    x + y,
+                    x - y,
+                    x * y,
+                    x.max(y),
+                    (x * x).sqrt(),
+                    x.inverse_or_zero(),
+                    x.abs(),
+                    x.select_positive(y, x),
+                ] {
                     results.push(value.lanes());
                 }
             }

@@ -15,7 +15,7 @@
 //! | `turning` | gaps of bodies that turn far within the step |
 //! | `gyro` | free rotation of anisotropic bodies within the step |
 //! | `softness` | soft coefficients |
-//! | `lanes`, `wide`, `machine` | several contacts side by side: in memory, in registers; the processor's instructions |
+//! | `lanes`, `wide`, `vectors`, `machine` | several contacts side by side: in memory, in registers, vectors of them; the processor's instructions |
 
 pub(crate) mod bodies;
 mod colours;
@@ -28,9 +28,10 @@ mod machine;
 mod pressed;
 mod softness;
 mod turning;
+mod vectors;
 mod wide;
 
-use hyperbody_math::{Bivector, Vector};
+use hyperbody_math::Vector;
 
 use crate::BodyKind;
 use crate::body::Body;
@@ -40,10 +41,10 @@ use crate::pairs::{Contact, Meeting, Pairs};
 use crate::threads::Pool;
 use crate::vetting::shortened;
 use crate::{BodyHandle, JointHandle, Tuning};
-use bodies::{PlaneNumbers, Sizes, SolverBody};
+use bodies::{Sizes, SolverBody};
 use colours::{ActiveContact, Colours, Group};
 use coming::{Coming, Errand};
-use contacts::{Arms, Block, Bounce, ContactRows, Layout, PassTimes, Prepare, Respond, Sweep, WarmStart};
+use contacts::{Block, Bounce, ContactRows, Gathered, Layout, PassTimes, Prepare, Springs, Sweep, WarmStart};
 use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
 use lanes::Lanes;
@@ -124,6 +125,8 @@ impl<const N: usize> Solver<N> {
 
     fn collect_bodies(&mut self, input: &mut SolverInput<'_, N>, h: f64) {
         self.bodies.clear();
+        // Row 0 belongs to no one: whoever is not moved by impulses points at it.
+        self.bodies.push(SolverBody::RESTING);
         self.gyros.clear();
         self.damped.clear();
         self.tension.find(input.joints, input.bodies.slot_count(), h);
@@ -132,10 +135,6 @@ impl<const N: usize> Solver<N> {
             let slot = slot as u32;
             let Some(body) = input.bodies.at_mut(slot) else { continue };
             body.solver_index = 0;
-            // Row 0 belongs to no one: whoever is not moved by impulses points at it.
-            if self.bodies.is_empty() {
-                self.bodies.push(SolverBody::immovable(body));
-            }
             if !body.is_moving() {
                 let runs = body.surface_velocity != Vector::ZERO && body.kind == BodyKind::Static;
                 if (body.kind == BodyKind::Kinematic || runs) && !body.quarantined {
@@ -157,14 +156,6 @@ impl<const N: usize> Solver<N> {
                 let (linear, angular) = (factor(body.linear_damping), factor(body.angular_damping));
                 self.damped.push(Damped { body: row, linear, angular });
             }
-        }
-        if let Some(first) = self.bodies.first_mut() {
-            first.velocity = Vector::ZERO;
-            first.angular_velocity = Bivector::ZERO;
-            first.slot = u32::MAX;
-            first.inverse_sqrt_mass = 0.0;
-            first.surface = Vector::ZERO;
-            first.runs = false;
         }
         self.state.clear();
         self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
@@ -201,47 +192,25 @@ impl<const N: usize> Solver<N> {
     fn make_rows(&mut self, input: &SolverInput<'_, N>, h: f64) {
         let tuning = input.tuning;
         self.contacts.allocate::<N>(&self.colours.groups, &self.active);
-        let prepare = Prepare {
+        let springs = Springs {
             soft: Softness::new(tuning.contact_hz, tuning.contact_damping_ratio, h),
             stiff: Softness::new(2.0 * tuning.contact_hz, tuning.contact_damping_ratio, h),
         };
         let (bodies, active, pairs) = (&self.bodies, &self.active, &*input.pairs);
         let processor = self.processor;
-        let fill = |block: &Block, rows: &mut [Lanes], arms: &mut Arms<N>| {
-            let mut counts = Lanes::ZERO;
+        let nothing = Contact::NONE;
+        let fill = |block: &Block, rows: &mut [Lanes], gathered: &mut Gathered<N>| {
+            gathered.start();
             for (lane, &index) in block.contacts.iter().enumerate() {
-                if index == Group::EMPTY {
-                    arms.clear(lane);
-                    continue;
-                }
-                let active = &active[index as usize];
-                let Some(contact) = pairs.get(active.pair).and_then(|pair| pair.contact.as_deref()) else { continue };
-                let (a, b) = (side(bodies, active.body_a), side(bodies, active.body_b));
-                let (rest_a, rest_b);
-                let a = match a {
-                    Some(a) => a,
-                    None => {
-                        rest_a = resting_at(contact);
-                        &rest_a
-                    }
-                };
-                let b = match b {
-                    Some(b) => b,
-                    None => {
-                        rest_b = resting_at(contact);
-                        &rest_b
-                    }
-                };
-                if block.round {
-                    prepare.fill_round(rows, lane, contact, a, b);
-                } else {
-                    prepare.fill(block, rows, lane, contact, (a, b), arms);
-                }
-                counts.0[lane] = contact.touches.len() as Real;
+                // No index is that of an empty lane.
+                let found = active.get(index as usize).and_then(|active| {
+                    let contact = pairs.get(active.pair)?.contact.as_deref()?;
+                    Some((contact, (&bodies[active.body_a as usize], &bodies[active.body_b as usize])))
+                });
+                let (contact, sides) = found.unwrap_or((&nothing, (&bodies[0], &bodies[0])));
+                gathered.fill(block, lane, contact, sides);
             }
-            if !block.round {
-                processor.run(Respond::<N> { block, rows, counts, arms });
-            }
+            processor.run(Prepare { block, rows, gathered, springs: &springs });
         };
         let coming = |blocks: &[Block], index: usize| {
             let coming = Coming { blocks, active, bodies, errand: Errand::Fill };
@@ -405,7 +374,7 @@ const FEW_BLOCKS: usize = 16;
 fn fill_blocks<const N: usize>(
     blocks: &[Block],
     rows: &mut [Lanes],
-    fill: &(impl Fn(&Block, &mut [Lanes], &mut Arms<N>) + Sync),
+    fill: &(impl Fn(&Block, &mut [Lanes], &mut Gathered<N>) + Sync),
     coming: &(impl Fn(&[Block], usize) + Sync),
 ) {
     if blocks.len() <= FEW_BLOCKS {
@@ -423,43 +392,16 @@ fn fill_blocks<const N: usize>(
 fn fill_in_turn<const N: usize>(
     blocks: &[Block],
     rows: &mut [Lanes],
-    fill: &impl Fn(&Block, &mut [Lanes], &mut Arms<N>),
+    fill: &impl Fn(&Block, &mut [Lanes], &mut Gathered<N>),
     coming: &impl Fn(&[Block], usize),
 ) {
-    let mut arms = Arms::ZERO;
+    let mut gathered = Gathered::ZERO;
     let start = blocks.first().map_or(0, |block| block.start);
     for (index, block) in blocks.iter().enumerate() {
         let end = blocks.get(index + 1).map_or(start + rows.len(), |next| next.start);
         let rows = &mut rows[block.start - start..end - start];
         coming(blocks, index);
-        // Zeroed here, where they are written next, for they may be more than the cache holds.
-        rows.fill(Lanes::ZERO);
-        fill(block, rows, &mut arms);
-    }
-}
-
-/// The body of a row, or `None` for row 0.
-fn side<const N: usize>(bodies: &[SolverBody<N>], row: u32) -> Option<&SolverBody<N>> {
-    (row != 0).then(|| &bodies[row as usize])
-}
-
-/// A body that nothing moves, seen from one of its contacts: its offsets don't matter.
-fn resting_at<const N: usize>(contact: &Contact<N>) -> SolverBody<N> {
-    SolverBody {
-        slot: u32::MAX,
-        inverse_sqrt_mass: 0.0,
-        added_moment: 0.0,
-        is_ball: false,
-        spins_up: false,
-        runs: false,
-        frame: None,
-        inverse_sqrt_moments: PlaneNumbers::splat(0.0),
-        centre: contact.touches.first().map_or(Vector::ZERO, |touch| touch.point.position),
-        velocity: Vector::ZERO,
-        angular_velocity: Bivector::ZERO,
-        acceleration: Vector::ZERO,
-        angular_acceleration: Bivector::ZERO,
-        surface: Vector::ZERO,
+        fill(block, rows, &mut gathered);
     }
 }
 

@@ -11,6 +11,7 @@
 
 mod arms;
 mod excess;
+mod gather;
 mod layout;
 mod normal;
 mod pairing;
@@ -23,11 +24,10 @@ mod sweep;
 
 use super::colours::{ActiveContact, Group};
 use super::lanes::{Lanes, WIDTH};
-pub(crate) use arms::Arms;
 pub(crate) use excess::excess;
+pub(crate) use gather::Gathered;
 pub(crate) use layout::Layout;
-pub(crate) use prepare::{Prepare, store};
-pub(crate) use response::Respond;
+pub(crate) use prepare::{Prepare, Springs, store};
 pub(crate) use solve::{Bounce, PassTimes, WarmStart};
 pub(crate) use sweep::Sweep;
 

@@ -1,17 +1,23 @@
-//! From a manifold to rows, and from solved rows back to the pair's warm start.
+//! From gathered contacts to rows, for eight contacts at once; and from solved rows back to the pair's warm start.
 
 use hyperbody_math::{Bivector, Vector};
 
 use super::arms::Arms;
+use super::gather::{Gathered, Side};
+use super::response::Response;
+use super::round::RoundPasses;
 use super::{Block, Layout, round};
-use crate::pairs::{Contact, Touch};
-use crate::solver::bodies::SolverBody;
-use crate::solver::lanes::{Lanes, Real, WIDTH};
+use crate::pairs::Contact;
+use crate::solver::bodies::Sizes;
+use crate::solver::lanes::{DoubleLanes, Lanes, Real};
+use crate::solver::machine::{Machine, Pass};
 use crate::solver::softness::Softness;
+use crate::solver::vectors::{Bivectors, Vectors};
+use crate::solver::wide::{Doubles, Wide};
 
-/// What preparing needs of the step.
+/// How contacts give way.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Prepare {
+pub(crate) struct Springs {
     /// Between two moving bodies.
     pub(crate) soft: Softness,
     /// Against the immovable: stiffer, because there the other side won't give; twice the frequency where the substep
@@ -23,199 +29,258 @@ pub(crate) struct Prepare {
 /// single precision, small against the response.
 const RIGID_SHARE: f64 = 1e-4;
 
-/// One contact while its lane is filled.
-pub(super) struct Lane<'a, const N: usize> {
-    pub(super) rows: &'a mut [Lanes],
-    pub(super) lane: usize,
-    pub(super) a: &'a SolverBody<N>,
-    pub(super) b: &'a SolverBody<N>,
+/// Makes the rows of a block.
+pub(crate) struct Prepare<'a, const N: usize> {
+    pub(crate) block: &'a Block,
+    pub(crate) rows: &'a mut [Lanes],
+    pub(crate) gathered: &'a Gathered<N>,
+    pub(crate) springs: &'a Springs,
 }
 
-/// Offsets of a point from both centres of mass, world axes.
-#[derive(Clone, Copy)]
-pub(super) struct Offsets<const N: usize> {
-    pub(super) a: Vector<N>,
-    pub(super) b: Vector<N>,
-}
-
-impl Prepare {
-    pub(super) fn softness<const N: usize>(&self, a: &SolverBody<N>, b: &SolverBody<N>) -> &Softness {
-        let both_move = a.inverse_sqrt_mass > 0.0 && b.inverse_sqrt_mass > 0.0;
-        if both_move { &self.soft } else { &self.stiff }
-    }
-
-    /// Fills one lane of a block from a contact's manifold and warm start, all but its arms, which [`super::Respond`] makes of
-    /// what is noted in `arms`.
-    pub(crate) fn fill<const N: usize>(
-        &self,
-        block: &Block,
-        rows: &mut [Lanes],
-        lane: usize,
-        contact: &Contact<N>,
-        (a, b): (&SolverBody<N>, &SolverBody<N>),
-        arms: &mut Arms<N>,
-    ) {
-        let mut lane = Lane { rows, lane, a, b };
-        lane.coefficients(contact, self.softness(a, b));
-        lane.centres(contact);
-        let touches = contact.touches.as_slice();
-        let mut centre = Vector::ZERO;
-        for touch in touches {
-            centre += touch.point.position * (1.0 / touches.len() as f64);
-        }
-        let tangents = contact.normal.orthonormal_complement();
-        let r = lane.offsets(centre);
-        let motion = lane.base_motion(r);
-        arms.a.fill(lane.lane, a, r.a, contact.normal, &tangents);
-        arms.b.fill(lane.lane, b, r.b, contact.normal, &tangents);
-        lane.sliding(contact, &tangents, motion);
-        if block.twists > 0 {
-            lane.twisting(contact, &tangents);
-        }
-        lane.field(contact, &tangents, motion, block);
-        lane.points(contact, centre, &tangents, block);
-        if block.resists {
-            lane.resistance(contact, &tangents, block);
+impl<const N: usize> Pass for Prepare<'_, N> {
+    #[inline(always)]
+    fn run<M: Machine>(self, machine: M) {
+        let Self { block, rows, gathered, springs } = self;
+        coefficients(machine, rows, gathered, springs);
+        if block.round {
+            RoundPasses::<N, M>::prepare(machine, rows, gathered);
+        } else {
+            Manifolds::<N, M>::new(machine, block, gathered).write(rows);
+            Response::<N>::write(machine, block, rows, gathered.counts);
         }
     }
 }
 
-impl<const N: usize> Lane<'_, N> {
-    pub(super) fn set(&mut self, position: usize, value: f64) {
-        // The remainder spares the check of the lane.
-        self.rows[position].0[self.lane % WIDTH] = value as Real;
+/// What all blocks start with.
+#[inline(always)]
+fn coefficients<const N: usize, M: Machine>(machine: M, rows: &mut [Lanes], gathered: &Gathered<N>, springs: &Springs) {
+    let rows = &mut rows[..Layout::<N>::COEFFICIENTS];
+    let Springs { soft, stiff } = springs;
+    let masses @ (a, b) = inverse_sqrt_masses(machine, gathered);
+    rows[Layout::<N>::INVERSE_SQRT_MASS_A] = a.lanes();
+    rows[Layout::<N>::INVERSE_SQRT_MASS_B] = b.lanes();
+    rows[Layout::<N>::FRICTION] = gathered.friction.on(machine).lanes();
+    rows[Layout::<N>::RESTITUTION] = gathered.restitution.on(machine).lanes();
+    rows[Layout::<N>::BIAS_RATE] = by_spring(masses, soft.bias_rate, stiff.bias_rate).lanes();
+    // The spring is the manifold's, shared evenly by its points: a patch is as stiff with sixteen corners as with one.
+    let share = (a * a + b * b) * gathered.counts.on(machine).doubles();
+    let softness_share = by_spring(masses, soft.compliance().max(RIGID_SHARE), stiff.compliance().max(RIGID_SHARE));
+    rows[Layout::<N>::SOFTNESS] = (share * softness_share).lanes();
+    rows[Layout::<N>::STIFFENER] = (share * DoubleLanes::splat(RIGID_SHARE).on(machine)).lanes();
+}
+
+#[inline(always)]
+pub(super) fn inverse_sqrt_masses<const N: usize, M: Machine>(
+    machine: M,
+    gathered: &Gathered<N>,
+) -> (Doubles<M>, Doubles<M>) {
+    (gathered.a.inverse_sqrt_mass.on(machine), gathered.b.inverse_sqrt_mass.on(machine))
+}
+
+/// `soft` where both bodies move, else `stiff`.
+#[inline(always)]
+fn by_spring<M: Machine>((a, b): (Doubles<M>, Doubles<M>), soft: f64, stiff: f64) -> Doubles<M> {
+    let machine = a.machine();
+    let (soft, stiff) = (DoubleLanes::splat(soft).on(machine), DoubleLanes::splat(stiff).on(machine));
+    a.select_positive(b.select_positive(soft, stiff), stiff)
+}
+
+/// How bodies b move against bodies a at a point of each contact, of themselves.
+pub(super) struct BaseMotion<const N: usize, M: Machine> {
+    pub(super) velocity: Vectors<N, M>,
+    pub(super) acceleration: Vectors<N, M>,
+}
+
+impl<const N: usize, M: Machine> BaseMotion<N, M> {
+    /// At the given offsets from both centres.
+    #[inline(always)]
+    pub(super) fn at(machine: M, gathered: &Gathered<N>, (a, b): (&Vectors<N, M>, &Vectors<N, M>)) -> Self {
+        let (velocity_a, acceleration_a) = base_motion_of(machine, &gathered.a, a);
+        let (velocity_b, acceleration_b) = base_motion_of(machine, &gathered.b, b);
+        Self { velocity: velocity_b - velocity_a, acceleration: acceleration_b - acceleration_a }
     }
 
-    pub(super) fn set_vector(&mut self, position: usize, value: Vector<N>) {
-        for i in 0..N {
-            self.set(position + i, value[i]);
+    /// Of the centres.
+    #[inline(always)]
+    pub(super) fn of_centres(machine: M, Gathered { a, b, .. }: &Gathered<N>) -> Self {
+        Self {
+            velocity: Vectors::load(machine, &b.velocity) - Vectors::load(machine, &a.velocity),
+            acceleration: Vectors::load(machine, &b.acceleration) - Vectors::load(machine, &a.acceleration),
         }
     }
+}
 
-    pub(super) fn offsets(&self, point: Vector<N>) -> Offsets<N> {
-        Offsets { a: point - self.a.centre, b: point - self.b.centre }
+/// Velocity and acceleration of the point at offset `r`.
+#[inline(always)]
+fn base_motion_of<const N: usize, M: Machine>(
+    machine: M,
+    side: &Side<N>,
+    r: &Vectors<N, M>,
+) -> (Vectors<N, M>, Vectors<N, M>) {
+    let spin = Bivectors::load(machine, &side.angular_velocity);
+    let velocity = Vectors::load(machine, &side.velocity) + spin.act_on(r);
+    let mut acceleration = Vectors::load(machine, &side.acceleration);
+    if let Some(spin_up) = side.angular_acceleration.get() {
+        acceleration = acceleration + Bivectors::load(machine, spin_up).act_on(r);
     }
+    (velocity, acceleration)
+}
 
-    /// Relative base velocity and acceleration of b against a at a point.
-    pub(super) fn base_motion(&self, r: Offsets<N>) -> (Vector<N>, Vector<N>) {
-        (
-            self.b.base_velocity_at(r.b) - self.a.base_velocity_at(r.a),
-            self.b.base_acceleration_at(r.b) - self.a.base_acceleration_at(r.a),
-        )
-    }
+/// The contacts of a block that are not those of balls, while its rows are made.
+struct Manifolds<'a, const N: usize, M: Machine> {
+    machine: M,
+    block: &'a Block,
+    gathered: &'a Gathered<N>,
+    normal: Vectors<N, M>,
+    tangents: [Vectors<N, M>; N],
+    /// The mean of the points.
+    centre: Vectors<N, M>,
+}
 
-    /// How b's surface runs against a's.
-    pub(super) fn surfaces(&self, contact: &Contact<N>) -> Vector<N> {
-        if self.a.runs || self.b.runs {
-            return contact.surface + self.b.surface - self.a.surface;
+impl<'a, const N: usize, M: Machine> Manifolds<'a, N, M> {
+    #[inline(always)]
+    fn new(machine: M, block: &'a Block, gathered: &'a Gathered<N>) -> Self {
+        let share = gathered.counts.on(machine).doubles().inverse_or_zero();
+        let mut centre = Vectors::zero(machine);
+        for point in &gathered.points[..block.points] {
+            centre = centre + Vectors::load(machine, &point.position) * share;
         }
-        contact.surface
+        let normal = Vectors::load(machine, &gathered.normal);
+        Self { machine, block, gathered, normal, tangents: normal.orthonormal_complement(), centre }
     }
 
-    pub(super) fn inverse_mass_sum(&self) -> f64 {
-        self.a.inverse_sqrt_mass * self.a.inverse_sqrt_mass + self.b.inverse_sqrt_mass * self.b.inverse_sqrt_mass
-    }
-
-    pub(super) fn coefficients(&mut self, contact: &Contact<N>, softness: &Softness) {
-        self.set(Layout::<N>::INVERSE_SQRT_MASS_A, self.a.inverse_sqrt_mass);
-        self.set(Layout::<N>::INVERSE_SQRT_MASS_B, self.b.inverse_sqrt_mass);
-        self.set(Layout::<N>::FRICTION, contact.friction);
-        self.set(Layout::<N>::RESTITUTION, contact.restitution);
-        self.set(Layout::<N>::BIAS_RATE, softness.bias_rate);
-        // The spring is the manifold's, shared evenly by its points: a patch is as stiff with sixteen corners as with one.
-        let share = self.inverse_mass_sum() * contact.touches.len() as f64;
-        let softness_share = (softness.impulse_scale / softness.mass_scale).max(RIGID_SHARE);
-        self.set(Layout::<N>::SOFTNESS, share * softness_share);
-        self.set(Layout::<N>::STIFFENER, share * RIGID_SHARE);
+    /// All but what [`Response`] adds.
+    #[inline(always)]
+    fn write(&self, rows: &mut [Lanes]) {
+        let Self { machine, gathered: Gathered { a, b, .. }, .. } = *self;
+        let offset_a = self.centre - Vectors::load(machine, &a.centre);
+        let offset_b = self.centre - Vectors::load(machine, &b.centre);
+        Arms::new(a, &offset_a, &self.normal, &self.tangents).write(self.block, rows);
+        Arms::new(b, &offset_b, &self.normal, &self.tangents).write(self.block, &mut rows[Sizes::<N>::K..]);
+        let motion = BaseMotion::at(machine, self.gathered, (&offset_a, &offset_b));
+        self.centres(rows);
+        self.sliding(&motion, rows);
+        self.turning(rows);
+        self.field(&motion, rows);
+        self.points(rows);
+        if self.block.resists {
+            self.resistance(rows);
+        }
     }
 
     /// The normal, and how the centres move against each other.
-    fn centres(&mut self, contact: &Contact<N>) {
-        self.set_vector(Layout::<N>::NORMAL, contact.normal);
-        self.set_vector(Layout::<N>::CENTRE_VELOCITY, self.b.velocity - self.a.velocity);
-        self.set_vector(Layout::<N>::CENTRE_ACCELERATION, self.b.acceleration - self.a.acceleration);
+    #[inline(always)]
+    fn centres(&self, rows: &mut [Lanes]) {
+        let rows = &mut rows[..Layout::<N>::HEADER];
+        let motion = BaseMotion::of_centres(self.machine, self.gathered);
+        self.normal.store(&mut rows[Layout::<N>::NORMAL..]);
+        motion.velocity.store(&mut rows[Layout::<N>::CENTRE_VELOCITY..]);
+        motion.acceleration.store(&mut rows[Layout::<N>::CENTRE_ACCELERATION..]);
+        rows[Layout::<N>::EXCESS..].fill(Lanes::ZERO);
     }
 
-    fn sliding(
-        &mut self,
-        contact: &Contact<N>,
-        tangents: &[Vector<N>; N],
-        (velocity, acceleration): (Vector<N>, Vector<N>),
-    ) {
-        let velocity = velocity + self.surfaces(contact);
-        for t in 0..Layout::<N>::SLIDES {
-            let at = Layout::<N>::HEADER + t * Layout::<N>::SLIDE_ROW;
-            let tangent = tangents[t];
-            self.set_vector(at, tangent);
-            self.set(at + Layout::<N>::SLIDE_VELOCITY, velocity.dot(tangent));
-            self.set(at + Layout::<N>::SLIDE_ACCELERATION, acceleration.dot(tangent));
-            self.set(at + Layout::<N>::SLIDE_IMPULSE, contact.friction_impulse.dot(tangent));
+    #[inline(always)]
+    fn sliding(&self, motion: &BaseMotion<N, M>, rows: &mut [Lanes]) {
+        let mut velocity = motion.velocity;
+        if let Some(surfaces) = self.gathered.surfaces.get() {
+            velocity = velocity + Vectors::load(self.machine, &surfaces.whole);
+        }
+        let held = Vectors::load(self.machine, &self.gathered.friction_impulse);
+        let rows = rows[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact_mut(Layout::<N>::SLIDE_ROW);
+        for (row, tangent) in rows.zip(&self.tangents) {
+            tangent.store(row);
+            row[Layout::<N>::SLIDE_VELOCITY] = velocity.dot(tangent).lanes();
+            row[Layout::<N>::SLIDE_ACCELERATION] = motion.acceleration.dot(tangent).lanes();
+            row[Layout::<N>::SLIDE_IMPULSE] = held.dot(tangent).lanes();
         }
     }
 
-    /// Twisting rows are the planes of the tangent space; their bivectors are orthonormal.
-    fn twisting(&mut self, contact: &Contact<N>, tangents: &[Vector<N>; N]) {
-        let spin = self.b.angular_velocity - self.a.angular_velocity;
-        let spin_up = self.b.spin_up_against(self.a);
-        let mut row = 0;
-        for s in 0..Layout::<N>::SLIDES {
-            for t in s + 1..Layout::<N>::SLIDES {
-                let at = Layout::<N>::TWIST_ROWS + row * Layout::<N>::TWIST_ROW;
-                let plane = Bivector::wedge(tangents[s], tangents[t]);
-                self.set(at + Layout::<N>::TWIST_VELOCITY, spin.dot(&plane));
-                self.set(at + Layout::<N>::TWIST_ACCELERATION, spin_up.dot(&plane));
-                self.set(at + Layout::<N>::TWIST_IMPULSE, contact.twist_impulse.dot(&plane));
-                row += 1;
+    /// Twisting rows, which are the planes of the tangent space, their bivectors orthonormal; and the slopes of the normal field.
+    #[inline(always)]
+    fn turning(&self, rows: &mut [Lanes]) {
+        let Self { machine, block, gathered: Gathered { a, b, .. }, ref normal, ref tangents, .. } = *self;
+        let spin = Bivectors::load(machine, &b.angular_velocity) - Bivectors::load(machine, &a.angular_velocity);
+        let spin_up = match (a.angular_acceleration.get(), b.angular_acceleration.get()) {
+            (None, None) => None,
+            (a, b) => Some(Bivectors::load_or_zero(machine, b) - Bivectors::load_or_zero(machine, a)),
+        };
+        let (field, points) = (Layout::<N>::field_start(block), Layout::<N>::points_start(block));
+        if block.twists > 0 {
+            let held = Bivectors::load(machine, &self.gathered.twist_impulse);
+            let mut rows = rows[Layout::<N>::TWIST_ROWS..field].chunks_exact_mut(Layout::<N>::TWIST_ROW);
+            for s in 0..Layout::<N>::SLIDES {
+                for (t, row) in (s + 1..Layout::<N>::SLIDES).zip(&mut rows) {
+                    let plane = Bivectors::wedge(&tangents[s], &tangents[t]);
+                    row[Layout::<N>::TWIST_VELOCITY] = spin.dot(&plane).lanes();
+                    row[Layout::<N>::TWIST_ACCELERATION] = match &spin_up {
+                        Some(spin_up) => spin_up.dot(&plane).lanes(),
+                        None => Lanes::ZERO,
+                    };
+                    row[Layout::<N>::TWIST_IMPULSE] = held.dot(&plane).lanes();
+                }
+            }
+        }
+        for (row, tangent) in rows[field..points].chunks_exact_mut(Layout::<N>::FIELD_ROW).skip(1).zip(tangents) {
+            row[Layout::<N>::FIELD_VELOCITY] = spin.act_on(tangent).dot(normal).lanes();
+            row[Layout::<N>::FIELD_ACCELERATION] = match &spin_up {
+                Some(spin_up) => spin_up.act_on(tangent).dot(normal).lanes(),
+                None => Lanes::ZERO,
+            };
+        }
+    }
+
+    /// The normal field at the centre of friction.
+    #[inline(always)]
+    fn field(&self, motion: &BaseMotion<N, M>, rows: &mut [Lanes]) {
+        let mut velocity = motion.velocity;
+        if let Some(surfaces) = self.gathered.surfaces.get() {
+            velocity = velocity + Vectors::load(self.machine, &surfaces.of_contact);
+        }
+        let row = &mut rows[Layout::<N>::field_start(self.block)..][..Layout::<N>::FIELD_ROW];
+        row[Layout::<N>::FIELD_VELOCITY] = velocity.dot(&self.normal).lanes();
+        row[Layout::<N>::FIELD_ACCELERATION] = motion.acceleration.dot(&self.normal).lanes();
+    }
+
+    #[inline(always)]
+    fn points(&self, rows: &mut [Lanes]) {
+        let Self { machine, block, gathered, .. } = *self;
+        let counts = gathered.counts.on(machine);
+        let rows = rows[Layout::<N>::points_start(block)..Layout::<N>::response_start(block)]
+            .chunks_exact_mut(Layout::<N>::POINT_ROW);
+        for ((index, row), point) in rows.enumerate().zip(&gathered.points) {
+            row[Layout::<N>::POINT_GAP] = point.gap.on(machine).lanes();
+            row[Layout::<N>::POINT_IMPULSE] = point.impulse;
+            row[Layout::<N>::POINT_STEP_IMPULSE] = Lanes::ZERO;
+            row[Layout::<N>::POINT_ARC] = Lanes::ZERO;
+            let there = has_point(counts, index);
+            let place = Vectors::load(machine, &point.position) - self.centre;
+            for (lever, tangent) in row[Layout::<N>::POINT_LEVER..].iter_mut().zip(&self.tangents) {
+                *lever = (place.dot(tangent) * there).lanes();
             }
         }
     }
 
     /// Rolling rows are the slopes of the normal field: the planes of the normal and each tangent.
-    fn resistance(&mut self, contact: &Contact<N>, tangents: &[Vector<N>; N], block: &Block) {
-        let start = Layout::<N>::resistance_start(block);
-        self.set(start + Layout::<N>::ROLLING, contact.resistance.0);
-        self.set(start + Layout::<N>::TWISTING, contact.resistance.1);
-        for t in 0..Layout::<N>::SLIDES {
-            let plane = Bivector::wedge(tangents[t], contact.normal);
-            self.set(start + Layout::<N>::ROLLING_IMPULSES + t, contact.twist_impulse.dot(&plane));
+    #[inline(always)]
+    fn resistance(&self, rows: &mut [Lanes]) {
+        let Self { machine, gathered, .. } = *self;
+        let [rolling, twisting] = &gathered.resistance;
+        let held = Bivectors::load(machine, &gathered.twist_impulse);
+        let rows = &mut rows[Layout::<N>::resistance_start(self.block)..];
+        rows[Layout::<N>::ROLLING] = rolling.on(machine).lanes();
+        rows[Layout::<N>::TWISTING] = twisting.on(machine).lanes();
+        for (row, tangent) in rows[Layout::<N>::ROLLING_IMPULSES..].iter_mut().zip(&self.tangents) {
+            *row = held.dot(&Bivectors::wedge(tangent, &self.normal)).lanes();
         }
     }
+}
 
-    /// The field of the normal rows: at the centre, and along the tangents.
-    fn field(
-        &mut self,
-        contact: &Contact<N>,
-        tangents: &[Vector<N>; N],
-        (mut velocity, acceleration): (Vector<N>, Vector<N>),
-        block: &Block,
-    ) {
-        let normal = contact.normal;
-        if contact.surface != Vector::ZERO {
-            velocity += contact.surface;
-        }
-        let start = Layout::<N>::field_start(block);
-        self.set(start + Layout::<N>::FIELD_VELOCITY, velocity.dot(normal));
-        self.set(start + Layout::<N>::FIELD_ACCELERATION, acceleration.dot(normal));
-        let spin = self.b.angular_velocity - self.a.angular_velocity;
-        let spin_up = self.b.spin_up_against(self.a);
-        for t in 1..Layout::<N>::field_rows(block) {
-            let at = start + t * Layout::<N>::FIELD_ROW;
-            let tangent = tangents[t - 1];
-            self.set(at + Layout::<N>::FIELD_VELOCITY, spin.act_on(tangent).dot(normal));
-            self.set(at + Layout::<N>::FIELD_ACCELERATION, spin_up.act_on(tangent).dot(normal));
-        }
-    }
-
-    fn points(&mut self, contact: &Contact<N>, centre: Vector<N>, tangents: &[Vector<N>; N], block: &Block) {
-        for (index, Touch { point, normal_impulse, .. }) in contact.touches.iter().enumerate() {
-            let at = Layout::<N>::points_start(block) + index * Layout::<N>::POINT_ROW;
-            self.set(at + Layout::<N>::POINT_GAP, point.separation);
-            self.set(at + Layout::<N>::POINT_IMPULSE, f64::from(*normal_impulse));
-            for t in 0..Layout::<N>::SLIDES {
-                self.set(at + Layout::<N>::POINT_LEVER + t, (point.position - centre).dot(tangents[t]));
-            }
-        }
-    }
+/// One in the lanes that have a point of this number, else zero.
+#[inline(always)]
+pub(super) fn has_point<M: Machine>(counts: Wide<M>, point: usize) -> Doubles<M> {
+    let machine = counts.machine();
+    let beyond = counts - Wide::splat(machine, point as Real + 0.5);
+    beyond.select_positive(Wide::splat(machine, 1.0), Wide::zero(machine)).doubles()
 }
 
 /// Stores the impulses of one lane in its contact, to warm-start the next step.
@@ -254,5 +319,70 @@ pub(crate) fn store<const N: usize>(block: &Block, rows: &[Lanes], lane: usize, 
         touch.normal_impulse = rows[at].0[lane];
         let total = start + index * Layout::<N>::POINT_ROW + Layout::<N>::POINT_STEP_IMPULSE;
         touch.step_impulse = rows[total].0[lane];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hyperbody_collision::{ContactPoint, MAX_POINTS};
+
+    use super::*;
+    use crate::pairs::{Touch, Touches};
+    use crate::solver::bodies::SolverBody;
+    use crate::solver::lanes::WIDTH;
+    use crate::solver::machine::Processor;
+
+    /// What is left over in the rows from the step before does not stay in any of them.
+    fn check_that_all_is_written<const N: usize>(points: usize, resists: bool, round: bool) {
+        let twists = if points > 1 || resists { Layout::<N>::TWISTS } else { 0 };
+        let (bodies, contacts) = ([0; WIDTH], [0; WIDTH]);
+        let block = Block {
+            start: 0,
+            points,
+            twists,
+            bounces: false,
+            resists,
+            round,
+            bodies_a: bodies,
+            bodies_b: bodies,
+            contacts,
+        };
+        let position = |k: usize| Vector::from_fn(|i| if i > 0 && k >> (i - 1) & 1 == 1 { 0.5 } else { -0.5 });
+        let touch = |k| Touch::new(ContactPoint { position: position(k), separation: -0.01, id: 0 });
+        let touches = |count: usize| Touches::List((0..count).map(touch).collect());
+        let contact = |count| Contact { touches: touches(count), normal: Vector::unit(0), ..Contact::NONE };
+        let (body, resting) = (SolverBody::<N>::with_unit_moments(1.0), SolverBody::<N>::RESTING);
+        let mut gathered = Gathered::ZERO;
+        gathered.start();
+        gathered.fill(&block, 0, &contact(points), (&resting, &body));
+        gathered.fill(&block, 1, &contact(1), (&body, &body));
+        for lane in 2..WIDTH {
+            gathered.fill(&block, lane, &Contact::NONE, (&resting, &resting));
+        }
+        let mut rows = vec![Lanes::splat(Real::NAN); Layout::<N>::block_len(&block)];
+        let spring = Softness::new(30.0, 10.0, 1.0 / 240.0);
+        let springs = Springs { soft: spring, stiff: spring };
+        let pass = Prepare { block: &block, rows: &mut rows, gathered: &gathered, springs: &springs };
+        Processor::of_this_machine().run(pass);
+        for (at, row) in rows.iter().enumerate() {
+            assert!(row.0.iter().all(|value| value.is_finite()), "{at} of {} in {N}D: {row:?}", rows.len());
+        }
+    }
+
+    fn check<const N: usize>() {
+        check_that_all_is_written::<N>(1, false, true);
+        for points in [1, N, MAX_POINTS] {
+            check_that_all_is_written::<N>(points, false, false);
+            check_that_all_is_written::<N>(points, true, false);
+        }
+    }
+
+    #[test]
+    fn all_rows_are_written() {
+        check::<2>();
+        check::<3>();
+        check::<4>();
+        check::<5>();
+        check::<6>();
     }
 }

@@ -1,39 +1,32 @@
-//! The arms of a block's rows, and how these respond to impulses: all contacts of a block at once.
+//! How the rows of a block respond to impulses: all contacts of a block at once.
 //!
 //! In double precision, rounded at the end: in single precision the sums would differ by some roundings from what the rows do
 //! when they are applied, and a scene that is turned, or placed in more dimensions, would depart ten times as fast.
 
-use super::arms::Arms;
 use super::normal::upper;
+use super::prepare::has_point;
 use super::{Block, Layout};
 use crate::solver::bodies::Sizes;
 use crate::solver::lanes::{Lanes, Real};
-use crate::solver::machine::{Machine, Pass};
+use crate::solver::machine::Machine;
 use crate::solver::wide::{Doubles, Wide};
 
-/// Completes a block whose lanes are filled: arms, effective masses of friction, and the responses of its points to each other.
-pub(crate) struct Respond<'a, const N: usize> {
-    pub(crate) block: &'a Block,
-    pub(crate) rows: &'a mut [Lanes],
-    /// Points of each contact.
-    pub(crate) counts: Lanes,
-    pub(crate) arms: &'a Arms<N>,
-}
+/// Effective masses of friction, and the responses of a block's points to each other.
+pub(super) struct Response<const N: usize>;
 
-impl<const N: usize> Pass for Respond<'_, N> {
+impl<const N: usize> Response<N> {
+    /// Completes a block whose arms and levers are there.
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) {
-        let Self { block, rows, counts, arms } = self;
-        arms.write(machine, block, rows);
+    pub(super) fn write<M: Machine>(machine: M, block: &Block, rows: &mut [Lanes], counts: Lanes) {
         let a = rows[Layout::<N>::INVERSE_SQRT_MASS_A].on(machine).doubles();
         let b = rows[Layout::<N>::INVERSE_SQRT_MASS_B].on(machine).doubles();
         let inverse_mass = a * a + b * b;
         Self::sliding(rows, inverse_mass);
-        if block.twists > 0 {
-            let mass =
-                Self::mass_of_turning(machine, rows, Layout::<N>::TWIST_ROWS, Layout::<N>::TWIST_ROW, block.twists);
-            rows[Layout::<N>::TWIST_MASS] = mass.lanes();
-        }
+        rows[Layout::<N>::TWIST_MASS] = if block.twists > 0 {
+            Self::mass_of_turning(machine, rows, Layout::<N>::TWIST_ROWS, Layout::<N>::TWIST_ROW, block.twists).lanes()
+        } else {
+            Lanes::ZERO
+        };
         if block.resists {
             let slopes = Layout::<N>::field_start(block) + Layout::<N>::FIELD_ROW;
             let mass = Self::mass_of_turning(machine, rows, slopes, Layout::<N>::FIELD_ROW, Layout::<N>::SLIDES);
@@ -41,9 +34,7 @@ impl<const N: usize> Pass for Respond<'_, N> {
         }
         Self::points(block, rows, inverse_mass, counts.on(machine));
     }
-}
 
-impl<const N: usize> Respond<'_, N> {
     /// Response of one row to another through the rotation of both bodies; their arms stand at the given positions.
     #[inline(always)]
     fn of_arms<M: Machine>(machine: M, rows: &[Lanes], row: usize, other: usize) -> Doubles<M> {
@@ -114,14 +105,6 @@ impl<const N: usize> Respond<'_, N> {
         inverse_trace * largest.inverse_or_zero()
     }
 
-    /// One in the lanes that have a point of this number, else zero.
-    #[inline(always)]
-    fn there<M: Machine>(counts: Wide<M>, point: usize) -> Doubles<M> {
-        let machine = counts.machine();
-        let beyond = counts - Wide::splat(machine, point as Real + 0.5);
-        beyond.select_positive(Wide::splat(machine, 1.0), Wide::zero(machine)).doubles()
-    }
-
     /// Responses of the points to each other, L G Lᵀ with L the places of the points and G the responses of the field.
     #[inline(always)]
     fn points<M: Machine>(block: &Block, rows: &mut [Lanes], inverse_mass: Doubles<M>, counts: Wide<M>) {
@@ -143,7 +126,7 @@ impl<const N: usize> Respond<'_, N> {
         for i in 0..block.points {
             let place = &levers[i * Layout::<N>::POINT_ROW + Layout::<N>::POINT_LEVER..][..Layout::<N>::SLIDES];
             // Lanes with fewer points have no response there.
-            let there = Self::there(counts, i);
+            let there = has_point(counts, i);
             let mut to_place = [zero; N];
             for t in 0..used {
                 to_place[t] = g[0][t];
@@ -154,7 +137,7 @@ impl<const N: usize> Respond<'_, N> {
             }
             for j in i..block.points {
                 let other = &levers[j * Layout::<N>::POINT_ROW + Layout::<N>::POINT_LEVER..][..Layout::<N>::SLIDES];
-                let there = Self::there(counts, j);
+                let there = has_point(counts, j);
                 let mut sum = to_place[0];
                 for t in 1..used {
                     sum += to_place[t] * other[t - 1].on(machine).doubles();

@@ -9,14 +9,16 @@ use std::marker::PhantomData;
 
 use hyperbody_math::{Bivector, Vector};
 
+use super::gather::Gathered;
 use super::pairing::{Pairing, States};
-use super::prepare::Lane;
+use super::prepare::{BaseMotion, inverse_sqrt_masses};
 use super::solve::{PassTimes, Passes};
-use super::{Block, Layout, Prepare};
+use super::{Block, Layout};
 use crate::pairs::Contact;
-use crate::solver::bodies::{Sizes, SolverBody};
+use crate::solver::bodies::Sizes;
 use crate::solver::lanes::Lanes;
 use crate::solver::machine::Machine;
+use crate::solver::vectors::Vectors;
 use crate::solver::wide::Wide;
 
 /// Where each number of such a block stands.
@@ -63,6 +65,54 @@ struct Solved<const N: usize, M: Machine> {
 }
 
 impl<const N: usize, M: Machine> RoundPasses<N, M> {
+    /// Makes the rows of a block, all but the coefficients.
+    #[inline(always)]
+    pub(super) fn prepare(machine: M, rows: &mut [Lanes], gathered: &Gathered<N>) {
+        let rows = &mut rows[..RoundLayout::<N>::LEN];
+        let point = &gathered.points[0];
+        let normal = Vectors::load(machine, &gathered.normal);
+        let position = Vectors::load(machine, &point.position);
+        let offset_a = position - Vectors::load(machine, &gathered.a.centre);
+        let offset_b = position - Vectors::load(machine, &gathered.b.centre);
+        // All moments of a ball are the same.
+        let arm_a = offset_a.dot(&normal) * gathered.a.inverse_sqrt_moments[0].on(machine);
+        let arm_b = offset_b.dot(&normal) * gathered.b.inverse_sqrt_moments[0].on(machine);
+        let (a, b) = inverse_sqrt_masses(machine, gathered);
+        let inverse_mass = a * a + b * b;
+        rows[RoundLayout::<N>::ARM_A] = arm_a.lanes();
+        rows[RoundLayout::<N>::ARM_B] = arm_b.lanes();
+        rows[RoundLayout::<N>::INVERSE_MASS] = inverse_mass.lanes();
+        let response = inverse_mass + arm_a * arm_a + arm_b * arm_b;
+        rows[RoundLayout::<N>::SLIDE_MASS] = response.inverse_or_zero().lanes();
+        rows[RoundLayout::<N>::GAP] = point.gap.on(machine).lanes();
+        rows[RoundLayout::<N>::IMPULSE] = point.impulse;
+        rows[RoundLayout::<N>::STEP_IMPULSE] = Lanes::ZERO;
+        rows[RoundLayout::<N>::ARC] = Lanes::ZERO;
+        let motion = BaseMotion::at(machine, gathered, (&offset_a, &offset_b));
+        let (mut meeting, mut sliding) = (motion.velocity, motion.velocity);
+        if let Some(surfaces) = gathered.surfaces.get() {
+            meeting = meeting + Vectors::load(machine, &surfaces.of_contact);
+            sliding = sliding + Vectors::load(machine, &surfaces.whole);
+        }
+        rows[RoundLayout::<N>::NORMAL_VELOCITY] = meeting.dot(&normal).lanes();
+        rows[RoundLayout::<N>::NORMAL_ACCELERATION] = motion.acceleration.dot(&normal).lanes();
+        normal.store(&mut rows[RoundLayout::<N>::NORMAL..]);
+        Self::across(&normal, sliding).store(&mut rows[RoundLayout::<N>::VELOCITY..]);
+        Self::across(&normal, motion.acceleration).store(&mut rows[RoundLayout::<N>::ACCELERATION..]);
+        let motion = BaseMotion::of_centres(machine, gathered);
+        motion.velocity.store(&mut rows[RoundLayout::<N>::CENTRE_VELOCITY..]);
+        motion.acceleration.store(&mut rows[RoundLayout::<N>::CENTRE_ACCELERATION..]);
+        let held = Vectors::load(machine, &gathered.friction_impulse);
+        Self::across(&normal, held).store(&mut rows[RoundLayout::<N>::FRICTION_IMPULSE..]);
+        rows[RoundLayout::<N>::EXCESS..].fill(Lanes::ZERO);
+    }
+
+    /// The part of a vector across the normal.
+    #[inline(always)]
+    fn across(normal: &Vectors<N, M>, vector: Vectors<N, M>) -> Vectors<N, M> {
+        vector - *normal * normal.dot(&vector)
+    }
+
     #[inline(always)]
     fn gather(machine: M, block: &Block, rows: &[Lanes], states: &States<'_>) -> Pairing<N, M> {
         Pairing::gather_part(machine, block, rows, states.read(), Sizes::<N>::VELOCITY + N)
@@ -258,45 +308,6 @@ impl<const N: usize, M: Machine> RoundPasses<N, M> {
         let solved = Solved { impulse: change, change, sliding: [zero; N] };
         Self::finish(rows, &normal, &solved, &mut p, times);
         p.scatter(block, states);
-    }
-}
-
-impl Prepare {
-    /// Fills one lane of a block of balls from a contact's one point and warm start.
-    pub(crate) fn fill_round<const N: usize>(
-        &self,
-        rows: &mut [Lanes],
-        lane: usize,
-        contact: &Contact<N>,
-        a: &SolverBody<N>,
-        b: &SolverBody<N>,
-    ) {
-        let [touch] = contact.touches.as_slice() else { return };
-        let point = &touch.point;
-        let mut lane = Lane { rows: &mut rows[..RoundLayout::<N>::LEN], lane, a, b };
-        let normal = contact.normal;
-        let across = |v: Vector<N>| v - normal * normal.dot(v);
-        lane.coefficients(contact, self.softness(a, b));
-        let r = lane.offsets(point.position);
-        // All moments of a ball are the same.
-        let arms = (r.a.dot(normal) * a.inverse_sqrt_moments[0], r.b.dot(normal) * b.inverse_sqrt_moments[0]);
-        lane.set(RoundLayout::<N>::ARM_A, arms.0);
-        lane.set(RoundLayout::<N>::ARM_B, arms.1);
-        let inverse_mass = lane.inverse_mass_sum();
-        lane.set(RoundLayout::<N>::INVERSE_MASS, inverse_mass);
-        lane.set(RoundLayout::<N>::SLIDE_MASS, 1.0 / (inverse_mass + arms.0 * arms.0 + arms.1 * arms.1));
-        lane.set(RoundLayout::<N>::GAP, point.separation);
-        lane.set(RoundLayout::<N>::IMPULSE, f64::from(touch.normal_impulse));
-        let (velocity, acceleration) = lane.base_motion(r);
-        let sliding = velocity + lane.surfaces(contact);
-        lane.set(RoundLayout::<N>::NORMAL_VELOCITY, (velocity + contact.surface).dot(normal));
-        lane.set(RoundLayout::<N>::NORMAL_ACCELERATION, acceleration.dot(normal));
-        lane.set_vector(RoundLayout::<N>::NORMAL, normal);
-        lane.set_vector(RoundLayout::<N>::VELOCITY, across(sliding));
-        lane.set_vector(RoundLayout::<N>::ACCELERATION, across(acceleration));
-        lane.set_vector(RoundLayout::<N>::CENTRE_VELOCITY, b.velocity - a.velocity);
-        lane.set_vector(RoundLayout::<N>::CENTRE_ACCELERATION, b.acceleration - a.acceleration);
-        lane.set_vector(RoundLayout::<N>::FRICTION_IMPULSE, across(contact.friction_impulse));
     }
 }
 
