@@ -33,6 +33,9 @@ pub(crate) trait Machine: Copy {
     fn all_positive(self, a: Self::Vector) -> bool;
     /// Lane i of vector j becomes lane j of vector i.
     fn transpose(self, rows: [Self::Vector; WIDTH]) -> [Self::Vector; WIDTH];
+    /// Of four rows, of which row i holds four numbers of contact i and four of contact i + 4: their numbers 0 and 4 in one
+    /// vector, 1 and 5, 2 and 6, 3 and 7 in the next ones, so that vector j holds number j of each contact. Its own inverse.
+    fn transpose_halves(self, rows: [Self::Vector; WIDTH / 2]) -> [Self::Vector; WIDTH / 2];
 
     fn load_doubles(self, values: [f64; WIDTH]) -> Self::Doubles;
     fn store_doubles(self, a: Self::Doubles) -> [f64; WIDTH];
@@ -198,6 +201,18 @@ impl Machine for Plain {
     }
 
     #[inline(always)]
+    fn transpose_halves(self, rows: [Lanes; WIDTH / 2]) -> [Lanes; WIDTH / 2] {
+        let mut columns = [Lanes::ZERO; WIDTH / 2];
+        for (j, row) in rows.iter().enumerate() {
+            for (i, column) in columns.iter_mut().enumerate() {
+                column.0[j] = row.0[i];
+                column.0[j + WIDTH / 2] = row.0[i + WIDTH / 2];
+            }
+        }
+        columns
+    }
+
+    #[inline(always)]
     fn load_doubles(self, values: [f64; WIDTH]) -> [f64; WIDTH] {
         values
     }
@@ -295,20 +310,6 @@ mod avx {
             V3::try_new().map(Self)
         }
 
-        /// Of four rows: their numbers 0 and 4 in one vector, 1 and 5, 2 and 6, 3 and 7 in the next ones.
-        #[inline(always)]
-        fn fours(self, [a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
-            let avx = self.0.avx;
-            let (low_ab, high_ab) = (avx._mm256_unpacklo_ps(a, b), avx._mm256_unpackhi_ps(a, b));
-            let (low_cd, high_cd) = (avx._mm256_unpacklo_ps(c, d), avx._mm256_unpackhi_ps(c, d));
-            [
-                avx._mm256_shuffle_ps::<0b01_00_01_00>(low_ab, low_cd),
-                avx._mm256_shuffle_ps::<0b11_10_11_10>(low_ab, low_cd),
-                avx._mm256_shuffle_ps::<0b01_00_01_00>(high_ab, high_cd),
-                avx._mm256_shuffle_ps::<0b11_10_11_10>(high_ab, high_cd),
-            ]
-        }
-
         #[inline(always)]
         fn half_inverse_or_zero(self, a: __m256d) -> __m256d {
             let avx = self.0.avx;
@@ -404,9 +405,22 @@ mod avx {
         }
 
         #[inline(always)]
+        fn transpose_halves(self, [a, b, c, d]: [__m256; WIDTH / 2]) -> [__m256; WIDTH / 2] {
+            let avx = self.0.avx;
+            let (low_ab, high_ab) = (avx._mm256_unpacklo_ps(a, b), avx._mm256_unpackhi_ps(a, b));
+            let (low_cd, high_cd) = (avx._mm256_unpacklo_ps(c, d), avx._mm256_unpackhi_ps(c, d));
+            [
+                avx._mm256_shuffle_ps::<0b01_00_01_00>(low_ab, low_cd),
+                avx._mm256_shuffle_ps::<0b11_10_11_10>(low_ab, low_cd),
+                avx._mm256_shuffle_ps::<0b01_00_01_00>(high_ab, high_cd),
+                avx._mm256_shuffle_ps::<0b11_10_11_10>(high_ab, high_cd),
+            ]
+        }
+
+        #[inline(always)]
         fn transpose(self, rows: [__m256; WIDTH]) -> [__m256; WIDTH] {
-            let (first, second) =
-                (self.fours([rows[0], rows[1], rows[2], rows[3]]), self.fours([rows[4], rows[5], rows[6], rows[7]]));
+            let [a, b, c, d, e, f, g, h] = rows;
+            let (first, second) = (self.transpose_halves([a, b, c, d]), self.transpose_halves([e, f, g, h]));
             let mut columns = [first[0]; WIDTH];
             for i in 0..WIDTH / 2 {
                 columns[i] = self.0.avx._mm256_permute2f128_ps::<0x20>(first[i], second[i]);
@@ -486,7 +500,7 @@ mod avx {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::wide::{Wide, transpose};
+    use crate::solver::wide::{Wide, transpose, transpose_halves};
 
     /// All operations on some numbers, one after the other.
     struct Everything<'a> {
@@ -519,6 +533,13 @@ mod tests {
                 ] {
                     results.push(value.lanes());
                 }
+            }
+            for four in numbers.windows(WIDTH / 2) {
+                let mut rows = [Wide::zero(machine); WIDTH / 2];
+                for (row, lanes) in rows.iter_mut().zip(four) {
+                    *row = lanes.on(machine);
+                }
+                results.extend(transpose_halves(machine, &rows).map(Wide::lanes));
             }
             for eight in numbers.windows(WIDTH) {
                 let mut rows = [Wide::zero(machine); WIDTH];

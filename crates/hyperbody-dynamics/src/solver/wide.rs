@@ -108,6 +108,21 @@ pub(crate) fn transpose<M: Machine>(machine: M, rows: &[Wide<M>; WIDTH]) -> [Wid
     result
 }
 
+/// See [`Machine::transpose_halves`].
+#[inline(always)]
+pub(crate) fn transpose_halves<M: Machine>(machine: M, rows: &[Wide<M>; WIDTH / 2]) -> [Wide<M>; WIDTH / 2] {
+    let mut vectors = [rows[0].vector; WIDTH / 2];
+    for (vector, row) in vectors.iter_mut().zip(rows) {
+        *vector = row.vector;
+    }
+    let columns = machine.transpose_halves(vectors);
+    let mut result = *rows;
+    for (result, vector) in result.iter_mut().zip(columns) {
+        result.vector = vector;
+    }
+    result
+}
+
 impl<M: Machine> Add for Wide<M> {
     type Output = Self;
     #[inline(always)]

@@ -5,7 +5,7 @@ use super::layout::Layout;
 use crate::solver::bodies::{MAX_STATE, Sizes};
 use crate::solver::lanes::{Lanes, Real, WIDTH};
 use crate::solver::machine::Machine;
-use crate::solver::wide::{Wide, transpose};
+use crate::solver::wide::{Wide, transpose, transpose_halves};
 
 /// The states of both bodies of a block's contacts, one contact a lane, and the header's numbers that every row needs.
 pub(super) struct Pairing<const N: usize, M: Machine> {
@@ -40,31 +40,69 @@ impl States<'_> {
     }
 }
 
+/// Numbers of half a vector: what is left over at the end of a state is often no more.
+const HALF: usize = WIDTH / 2;
+
+/// Whether the numbers from `at` up to `count` fit half a vector: transposing that takes a third of the work.
+#[inline(always)]
+const fn is_half(at: usize, count: usize) -> bool {
+    count - at <= HALF
+}
+
+/// Vectors that hold the velocities of one side of a block: of two bodies each where half a vector is enough.
+const fn side_len<const N: usize>() -> usize {
+    Sizes::<N>::VELOCITY.next_multiple_of(HALF)
+}
+
 /// Vectors that a block puts aside.
 pub(super) const fn put_len<const N: usize>() -> usize {
-    2 * WIDTH * Sizes::<N>::VELOCITY.div_ceil(WIDTH)
+    2 * side_len::<N>()
 }
 
 /// Puts the states of some blocks in place that were put aside.
 pub(super) fn put_in_place<const N: usize>(blocks: &[Block], put: &[Lanes], state: &mut [Real]) {
-    let (vectors, _) = state.as_chunks_mut::<WIDTH>();
-    let mut put = put.iter();
+    let mut sides = put.chunks_exact(side_len::<N>());
     for block in blocks {
         for bodies in [&block.bodies_a, &block.bodies_b] {
+            let Some(mut rest) = sides.next() else { return };
             for at in (0..Sizes::<N>::VELOCITY).step_by(WIDTH) {
-                for (body, lanes) in bodies.iter().zip(&mut put) {
-                    vectors[vector::<N>(*body, at)] = lanes.0;
+                let half = is_half(at, Sizes::<N>::VELOCITY);
+                let (rows, others) = rest.split_at(if half { HALF } else { WIDTH });
+                for (k, row) in rows.iter().enumerate() {
+                    put_row::<N>(state, bodies, (k, at), *row, half);
                 }
+                rest = others;
             }
         }
     }
     state[..Sizes::<N>::VELOCITY].fill(0.0);
 }
 
-/// Which vector of the state holds number `at` of a body.
+/// Puts a row of a block in place: the numbers from `at` on of body k, or of bodies k and k + 4 a half each, see
+/// [`Machine::transpose_halves`].
 #[inline(always)]
-fn vector<const N: usize>(body: u32, at: usize) -> usize {
-    body as usize * (Sizes::<N>::STATE / WIDTH) + at / WIDTH
+fn put_row<const N: usize>(
+    state: &mut [Real],
+    bodies: &[u32; WIDTH],
+    (k, at): (usize, usize),
+    row: Lanes,
+    halves: bool,
+) {
+    if halves {
+        let (vectors, _) = state.as_chunks_mut::<HALF>();
+        let (parts, _) = row.0.as_chunks::<HALF>();
+        vectors[place::<N, HALF>(bodies[k], at)] = parts[0];
+        vectors[place::<N, HALF>(bodies[k + HALF], at)] = parts[1];
+    } else {
+        let (vectors, _) = state.as_chunks_mut::<WIDTH>();
+        vectors[place::<N, WIDTH>(bodies[k], at)] = row.0;
+    }
+}
+
+/// Which vector of `LEN` numbers holds number `at` of a body.
+#[inline(always)]
+fn place<const N: usize, const LEN: usize>(body: u32, at: usize) -> usize {
+    body as usize * (Sizes::<N>::STATE / LEN) + at / LEN
 }
 
 impl<const N: usize, M: Machine> Pairing<N, M> {
@@ -73,7 +111,7 @@ impl<const N: usize, M: Machine> Pairing<N, M> {
 
     #[inline(always)]
     pub(super) fn gather(machine: M, block: &Block, rows: &[Lanes], state: &[Real]) -> Self {
-        Self::gather_part(machine, block, rows, state, Sizes::<N>::STATE)
+        Self::gather_part(machine, block, rows, state, 2 * Sizes::<N>::VELOCITY)
     }
 
     /// Gathers the first `count` numbers of the states, and what else is in their vectors.
@@ -91,13 +129,26 @@ impl<const N: usize, M: Machine> Pairing<N, M> {
     #[inline(always)]
     fn gather_side(machine: M, bodies: &[u32; WIDTH], state: &[Real], count: usize) -> [Wide<M>; MAX_STATE] {
         let mut gathered = [Wide::zero(machine); MAX_STATE];
-        let (vectors, _) = state.as_chunks::<WIDTH>();
         for at in (0..count).step_by(WIDTH) {
-            let mut rows = [Wide::zero(machine); WIDTH];
-            for (row, body) in rows.iter_mut().zip(bodies) {
-                *row = Lanes(vectors[vector::<N>(*body, at)]).on(machine);
+            if is_half(at, count) {
+                let mut rows = [Wide::zero(machine); HALF];
+                let (halves, _) = state.as_chunks::<HALF>();
+                for (row, (low, high)) in rows.iter_mut().zip(bodies[..HALF].iter().zip(&bodies[HALF..])) {
+                    let mut both = Lanes::ZERO;
+                    let (parts, _) = both.0.as_chunks_mut::<HALF>();
+                    parts[0] = halves[place::<N, HALF>(*low, at)];
+                    parts[1] = halves[place::<N, HALF>(*high, at)];
+                    *row = both.on(machine);
+                }
+                gathered[at..at + HALF].copy_from_slice(&transpose_halves(machine, &rows));
+            } else {
+                let mut rows = [Wide::zero(machine); WIDTH];
+                let (vectors, _) = state.as_chunks::<WIDTH>();
+                for (row, body) in rows.iter_mut().zip(bodies) {
+                    *row = Lanes(vectors[place::<N, WIDTH>(*body, at)]).on(machine);
+                }
+                gathered[at..at + WIDTH].copy_from_slice(&transpose(machine, &rows));
             }
-            gathered[at..at + WIDTH].copy_from_slice(&transpose(machine, &rows));
         }
         gathered
     }
@@ -115,22 +166,32 @@ impl<const N: usize, M: Machine> Pairing<N, M> {
     /// Displacements that share a vector with velocities are put back as they were.
     #[inline(always)]
     fn scatter_side(values: &[Wide<M>; MAX_STATE], bodies: &[u32; WIDTH], states: &mut States<'_>) {
+        let machine = values[0].machine();
         for at in (0..Sizes::<N>::VELOCITY).step_by(WIDTH) {
-            let mut columns = [values[at]; WIDTH];
-            columns.copy_from_slice(&values[at..at + WIDTH]);
-            let rows = transpose(columns[0].machine(), &columns);
-            match states {
-                States::InPlace(state) => {
-                    let (vectors, _) = state.as_chunks_mut::<WIDTH>();
-                    for (body, row) in bodies.iter().zip(rows) {
-                        vectors[vector::<N>(*body, at)] = row.lanes().0;
-                    }
+            if is_half(at, Sizes::<N>::VELOCITY) {
+                let mut columns = [values[at]; HALF];
+                columns.copy_from_slice(&values[at..at + HALF]);
+                Self::put_rows(&transpose_halves(machine, &columns), bodies, at, states);
+            } else {
+                let mut columns = [values[at]; WIDTH];
+                columns.copy_from_slice(&values[at..at + WIDTH]);
+                Self::put_rows(&transpose(machine, &columns), bodies, at, states);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn put_rows<const LEN: usize>(rows: &[Wide<M>; LEN], bodies: &[u32; WIDTH], at: usize, states: &mut States<'_>) {
+        match states {
+            States::InPlace(state) => {
+                for (k, row) in rows.iter().enumerate() {
+                    put_row::<N>(state, bodies, (k, at), row.lanes(), LEN == HALF);
                 }
-                States::Aside { put, .. } => {
-                    // The rows end first: nothing is taken from `put` in vain.
-                    for (row, lanes) in rows.into_iter().zip(put) {
-                        *lanes = row.lanes();
-                    }
+            }
+            States::Aside { put, .. } => {
+                // The rows end first: nothing is taken from `put` in vain.
+                for (row, lanes) in rows.iter().zip(put) {
+                    *lanes = row.lanes();
                 }
             }
         }
