@@ -32,40 +32,56 @@ pub(super) struct Coming<'a, const N: usize> {
 
 impl<const N: usize> Coming<'_, N> {
     /// Asks for what the blocks after the one at `index` work on.
-    #[inline]
+    #[inline(always)]
     pub(super) fn fetch(&self, index: usize, pairs: &Pairs<N>) {
         if !IS_HEARD {
             return;
         }
-        for (_, active) in self.contacts(index + 3) {
-            fetch(&pairs.slots()[active.pair as usize], usize::MAX);
+        if let Some(block) = self.blocks.get(index + 3) {
+            self.contacts(block).for_each(|active| fetch(&pairs.slots()[active.pair as usize], usize::MAX));
         }
-        for (block, active) in self.contacts(index + 2) {
-            let contact = pairs.get(active.pair).and_then(|pair| pair.contact.as_deref());
-            let bodies = [active.body_a, active.body_b].map(|body| &self.bodies[body as usize]);
-            // Both keep in front what rows of balls are made of, of moments the first, and at the end what few rows are. How much it
-            // is stands in the calls, so that each becomes as many hints and no loop.
+        // How much it is stands in the calls, so that each becomes as many hints and no loop.
+        if let Some(block) = self.blocks.get(index + 2) {
             if block.round {
-                contact.into_iter().for_each(|contact| fetch(contact, offset_of!(Contact<N>, normal_in_a)));
+                self.contacts(block).for_each(|active| self.fetch_of_balls(active, pairs));
             } else {
-                contact.into_iter().for_each(|contact| fetch(contact, offset_of!(Contact<N>, resistance)));
-            }
-            let first_moment = offset_of!(SolverBody<N>, inverse_sqrt_moments) + size_of::<f64>();
-            for body in bodies {
-                match (self.errand, block.round) {
-                    (Errand::Fill, true) => fetch(body, first_moment),
-                    (Errand::Fill, false) => fetch(body, offset_of!(SolverBody<N>, surface)),
-                    (Errand::Store, true) => fetch(&body.inverse_sqrt_moments[0], usize::MAX),
-                    (Errand::Store, false) => {
-                        fetch(&body.inverse_sqrt_moments, usize::MAX);
-                        fetch(&body.frame, usize::MAX);
-                    }
-                }
+                self.contacts(block).for_each(|active| self.fetch_of_others(active, pairs));
             }
         }
-        for (_, active) in self.contacts(index + 1).filter(|(block, _)| !block.round) {
-            if let Some(contact) = pairs.get(active.pair).and_then(|pair| pair.contact.as_deref()) {
+        if let Some(block) = self.blocks.get(index + 1).filter(|block| !block.round) {
+            for contact in self.contacts(block).filter_map(|active| contact_of(active, pairs)) {
                 fetch_all(&contact.touches);
+            }
+        }
+    }
+
+    // Contacts and bodies keep in front what rows of balls are made of, of moments the first, and at the end what few rows are.
+
+    #[inline(always)]
+    fn fetch_of_balls(&self, active: &ActiveContact, pairs: &Pairs<N>) {
+        if let Some(contact) = contact_of(active, pairs) {
+            fetch(contact, offset_of!(Contact<N>, normal_in_a));
+        }
+        for body in self.bodies_of(active) {
+            match self.errand {
+                Errand::Fill => fetch(body, offset_of!(SolverBody<N>, inverse_sqrt_moments) + size_of::<f64>()),
+                Errand::Store => fetch(&body.inverse_sqrt_moments[0], usize::MAX),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn fetch_of_others(&self, active: &ActiveContact, pairs: &Pairs<N>) {
+        if let Some(contact) = contact_of(active, pairs) {
+            fetch(contact, offset_of!(Contact<N>, resistance));
+        }
+        for body in self.bodies_of(active) {
+            match self.errand {
+                Errand::Fill => fetch(body, offset_of!(SolverBody<N>, surface)),
+                Errand::Store => {
+                    fetch(&body.inverse_sqrt_moments, usize::MAX);
+                    fetch(&body.frame, usize::MAX);
+                }
             }
         }
     }
@@ -79,10 +95,18 @@ impl<const N: usize> Coming<'_, N> {
 
     /// The contacts of a block.
     #[inline(always)]
-    fn contacts(&self, index: usize) -> impl Iterator<Item = (&Block, &ActiveContact)> {
-        let lanes =
-            self.blocks.get(index).into_iter().flat_map(|block| block.contacts.iter().map(move |&lane| (block, lane)));
+    fn contacts<'b>(&'b self, block: &'b Block) -> impl Iterator<Item = &'b ActiveContact> {
         // No index is that of an empty lane.
-        lanes.filter_map(|(block, contact)| Some((block, self.active.get(contact as usize)?)))
+        block.contacts.iter().filter_map(|&contact| self.active.get(contact as usize))
     }
+
+    #[inline(always)]
+    fn bodies_of(&self, active: &ActiveContact) -> [&SolverBody<N>; 2] {
+        [active.body_a, active.body_b].map(|body| &self.bodies[body as usize])
+    }
+}
+
+#[inline(always)]
+fn contact_of<'a, const N: usize>(active: &ActiveContact, pairs: &'a Pairs<N>) -> Option<&'a Contact<N>> {
+    pairs.get(active.pair)?.contact.as_deref()
 }
