@@ -12,7 +12,7 @@ pub(crate) const WIDTH: usize = 8;
 #[repr(C, align(32))]
 pub(crate) struct Lanes(pub(crate) [Real; WIDTH]);
 
-/// The same in double precision. Starts a line of cache, so that no load meets two.
+/// The same in double precision, as it stands in memory. Starts a line of cache, so that no load meets two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct DoubleLanes(pub(crate) [f64; WIDTH]);

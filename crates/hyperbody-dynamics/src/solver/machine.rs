@@ -2,7 +2,7 @@
 //!
 //! Lane by lane all kinds do the same IEEE operations, none of them fused, so the bits of results do not depend on the machine.
 
-use super::lanes::{Lanes, Real, WIDTH};
+use super::lanes::{DoubleLanes, Lanes, Real, WIDTH};
 
 /// A kind of processor: a token that its instructions are there.
 pub(crate) trait Machine: Copy {
@@ -13,6 +13,10 @@ pub(crate) trait Machine: Copy {
     type Vector: Copy;
     /// The same in double precision.
     type Doubles: Copy;
+    /// Of the same, those of one register.
+    type Part: Copy;
+    /// Registers that the same takes.
+    const PARTS: usize;
 
     fn load(self, lanes: Lanes) -> Self::Vector;
     fn store(self, vector: Self::Vector) -> Lanes;
@@ -50,13 +54,20 @@ pub(crate) trait Machine: Copy {
     fn max_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
     /// 1/a where a > 0, else 0.
     fn inverse_or_zero(self, a: Self::Doubles) -> Self::Doubles;
+
+    fn load_part(self, lanes: &DoubleLanes, part: usize) -> Self::Part;
+    /// Rounded to the nearest.
+    fn store_part(self, a: Self::Part, lanes: &mut Lanes, part: usize);
+    fn splat_part(self, value: f64) -> Self::Part;
+    fn add_part(self, a: Self::Part, b: Self::Part) -> Self::Part;
+    fn sub_part(self, a: Self::Part, b: Self::Part) -> Self::Part;
+    fn mul_part(self, a: Self::Part, b: Self::Part) -> Self::Part;
+    /// a where a > b, else b.
+    fn max_part(self, a: Self::Part, b: Self::Part) -> Self::Part;
+    /// 1/a where a > 0, else 0.
+    fn inverse_or_zero_part(self, a: Self::Part) -> Self::Part;
     /// `positive` where `of` > 0, else `otherwise`.
-    fn select_positive_doubles(
-        self,
-        of: Self::Doubles,
-        positive: Self::Doubles,
-        otherwise: Self::Doubles,
-    ) -> Self::Doubles;
+    fn select_positive_part(self, of: Self::Part, positive: Self::Part, otherwise: Self::Part) -> Self::Part;
 }
 
 /// Work that is compiled anew for every kind. `run` and all that it calls must be `#[inline(always)]`: a function of its
@@ -119,6 +130,9 @@ impl Machine for Plain {
 
     type Vector = Lanes;
     type Doubles = [f64; WIDTH];
+    /// One by one: what takes parts is long, and has to be small.
+    type Part = f64;
+    const PARTS: usize = WIDTH;
 
     #[inline(always)]
     fn load(self, lanes: Lanes) -> Lanes {
@@ -263,19 +277,48 @@ impl Machine for Plain {
     }
 
     #[inline(always)]
-    fn select_positive_doubles(
-        self,
-        of: [f64; WIDTH],
-        positive: [f64; WIDTH],
-        otherwise: [f64; WIDTH],
-    ) -> [f64; WIDTH] {
-        let mut result = otherwise;
-        for lane in 0..WIDTH {
-            if of[lane] > 0.0 {
-                result[lane] = positive[lane];
-            }
-        }
-        result
+    fn load_part(self, lanes: &DoubleLanes, part: usize) -> f64 {
+        lanes.0[part % WIDTH]
+    }
+
+    #[inline(always)]
+    fn store_part(self, a: f64, lanes: &mut Lanes, part: usize) {
+        lanes.0[part % WIDTH] = a as Real;
+    }
+
+    #[inline(always)]
+    fn splat_part(self, value: f64) -> f64 {
+        value
+    }
+
+    #[inline(always)]
+    fn add_part(self, a: f64, b: f64) -> f64 {
+        a + b
+    }
+
+    #[inline(always)]
+    fn sub_part(self, a: f64, b: f64) -> f64 {
+        a - b
+    }
+
+    #[inline(always)]
+    fn mul_part(self, a: f64, b: f64) -> f64 {
+        a * b
+    }
+
+    #[inline(always)]
+    fn max_part(self, a: f64, b: f64) -> f64 {
+        if a > b { a } else { b }
+    }
+
+    #[inline(always)]
+    fn inverse_or_zero_part(self, a: f64) -> f64 {
+        if a > 0.0 { 1.0 / a } else { 0.0 }
+    }
+
+    #[inline(always)]
+    fn select_positive_part(self, of: f64, positive: f64, otherwise: f64) -> f64 {
+        if of > 0.0 { positive } else { otherwise }
     }
 }
 
@@ -285,7 +328,10 @@ mod avx {
 
     use pulp::x86::V3;
 
-    use super::{Lanes, Machine, Pass, Real, WIDTH};
+    use super::{DoubleLanes, Lanes, Machine, Pass, Real, WIDTH};
+
+    /// Lanes of a register in double precision.
+    const HALF: usize = WIDTH / 2;
 
     /// Registers of eight numbers: most machines since 2015.
     #[derive(Clone, Copy, Debug)]
@@ -310,20 +356,6 @@ mod avx {
             V3::try_new().map(Self)
         }
 
-        #[inline(always)]
-        fn half_inverse_or_zero(self, a: __m256d) -> __m256d {
-            let avx = self.0.avx;
-            let mask = avx._mm256_cmp_pd::<_CMP_GT_OQ>(a, avx._mm256_setzero_pd());
-            avx._mm256_and_pd(avx._mm256_div_pd(avx._mm256_set1_pd(1.0), a), mask)
-        }
-
-        #[inline(always)]
-        fn half_select_positive(self, of: __m256d, positive: __m256d, otherwise: __m256d) -> __m256d {
-            let avx = self.0.avx;
-            let mask = avx._mm256_cmp_pd::<_CMP_GT_OQ>(of, avx._mm256_setzero_pd());
-            avx._mm256_blendv_pd(otherwise, positive, mask)
-        }
-
         #[inline]
         pub(crate) fn run(self, pass: impl Pass) {
             pulp::Simd::vectorize(self.0, OnAvx { pass, avx: self });
@@ -336,6 +368,8 @@ mod avx {
         type Vector = __m256;
         /// Lanes 0 to 3, and 4 to 7.
         type Doubles = (__m256d, __m256d);
+        type Part = __m256d;
+        const PARTS: usize = WIDTH / HALF;
 
         #[inline(always)]
         fn load(self, lanes: Lanes) -> __m256 {
@@ -456,17 +490,17 @@ mod avx {
 
         #[inline(always)]
         fn add_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
-            (self.0.avx._mm256_add_pd(a.0, b.0), self.0.avx._mm256_add_pd(a.1, b.1))
+            (self.add_part(a.0, b.0), self.add_part(a.1, b.1))
         }
 
         #[inline(always)]
         fn sub_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
-            (self.0.avx._mm256_sub_pd(a.0, b.0), self.0.avx._mm256_sub_pd(a.1, b.1))
+            (self.sub_part(a.0, b.0), self.sub_part(a.1, b.1))
         }
 
         #[inline(always)]
         fn mul_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
-            (self.0.avx._mm256_mul_pd(a.0, b.0), self.0.avx._mm256_mul_pd(a.1, b.1))
+            (self.mul_part(a.0, b.0), self.mul_part(a.1, b.1))
         }
 
         #[inline(always)]
@@ -476,23 +510,61 @@ mod avx {
 
         #[inline(always)]
         fn max_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles {
-            (self.0.avx._mm256_max_pd(a.0, b.0), self.0.avx._mm256_max_pd(a.1, b.1))
+            (self.max_part(a.0, b.0), self.max_part(a.1, b.1))
         }
 
         #[inline(always)]
         fn inverse_or_zero(self, (low, high): Self::Doubles) -> Self::Doubles {
-            (self.half_inverse_or_zero(low), self.half_inverse_or_zero(high))
+            (self.inverse_or_zero_part(low), self.inverse_or_zero_part(high))
         }
 
         #[inline(always)]
-        fn select_positive_doubles(
-            self,
-            of: Self::Doubles,
-            positive: Self::Doubles,
-            otherwise: Self::Doubles,
-        ) -> Self::Doubles {
-            let low = self.half_select_positive(of.0, positive.0, otherwise.0);
-            (low, self.half_select_positive(of.1, positive.1, otherwise.1))
+        fn load_part(self, lanes: &DoubleLanes, part: usize) -> __m256d {
+            pulp::cast(lanes.0.as_chunks::<HALF>().0[part % Self::PARTS])
+        }
+
+        #[inline(always)]
+        fn store_part(self, a: __m256d, lanes: &mut Lanes, part: usize) {
+            lanes.0.as_chunks_mut::<HALF>().0[part % Self::PARTS] = pulp::cast(self.0.avx._mm256_cvtpd_ps(a));
+        }
+
+        #[inline(always)]
+        fn splat_part(self, value: f64) -> __m256d {
+            self.0.avx._mm256_set1_pd(value)
+        }
+
+        #[inline(always)]
+        fn add_part(self, a: __m256d, b: __m256d) -> __m256d {
+            self.0.avx._mm256_add_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn sub_part(self, a: __m256d, b: __m256d) -> __m256d {
+            self.0.avx._mm256_sub_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn mul_part(self, a: __m256d, b: __m256d) -> __m256d {
+            self.0.avx._mm256_mul_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn max_part(self, a: __m256d, b: __m256d) -> __m256d {
+            self.0.avx._mm256_max_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn inverse_or_zero_part(self, a: __m256d) -> __m256d {
+            let avx = self.0.avx;
+            let mask = avx._mm256_cmp_pd::<_CMP_GT_OQ>(a, avx._mm256_setzero_pd());
+            avx._mm256_and_pd(avx._mm256_div_pd(avx._mm256_set1_pd(1.0), a), mask)
+        }
+
+        #[inline(always)]
+        fn select_positive_part(self, of: __m256d, positive: __m256d, otherwise: __m256d) -> __m256d {
+            let avx = self.0.avx;
+            let mask = avx._mm256_cmp_pd::<_CMP_GT_OQ>(of, avx._mm256_setzero_pd());
+            avx._mm256_blendv_pd(otherwise, positive, mask)
         }
     }
 }
@@ -500,6 +572,7 @@ mod avx {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::part::Place;
     use crate::solver::wide::{Wide, transpose, transpose_halves};
 
     /// All operations on some numbers, one after the other.
@@ -521,18 +594,16 @@ mod tests {
                 let positive = if a.all_positive() { 1.0 } else { 0.0 };
                 results.push(Wide::splat(machine, positive).lanes());
                 let (x, y) = (a.doubles(), b.doubles());
-                for value in [
-                    x + y,
-                    x - y,
-                    x * y,
-                    x.max(y),
-                    (x * x).sqrt(),
-                    x.inverse_or_zero(),
-                    x.abs(),
-                    x.select_positive(y, x),
-                ] {
+                for value in [x + y, x - y, x * y, x.max(y), (x * x).sqrt(), x.inverse_or_zero()] {
                     results.push(value.lanes());
                 }
+                let [a, b] = [pair[0], pair[1]].map(|lanes| DoubleLanes(lanes.0.map(f64::from)));
+                let mut chosen = Lanes::ZERO;
+                for place in Place::all(machine) {
+                    let (a, b) = (a.at(place), b.at(place));
+                    a.select_positive(b, a.abs().inverse_or_zero()).store(&mut chosen);
+                }
+                results.push(chosen);
             }
             for four in numbers.windows(WIDTH / 2) {
                 let mut rows = [Wide::zero(machine); WIDTH / 2];

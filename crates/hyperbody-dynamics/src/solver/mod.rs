@@ -15,7 +15,8 @@
 //! | `turning` | gaps of bodies that turn far within the step |
 //! | `gyro` | free rotation of anisotropic bodies within the step |
 //! | `softness` | soft coefficients |
-//! | `lanes`, `wide`, `vectors`, `machine` | several contacts side by side: in memory, in registers, vectors of them; the processor's instructions |
+//! | `lanes`, `wide`, `machine` | several contacts side by side: in memory, in registers; the processor's instructions |
+//! | `part`, `vectors` | as many contacts as a register holds in double precision; vectors of them |
 
 pub(crate) mod bodies;
 mod colours;
@@ -25,6 +26,7 @@ pub(crate) mod gyro;
 mod joints;
 mod lanes;
 mod machine;
+mod part;
 mod pressed;
 mod softness;
 mod turning;

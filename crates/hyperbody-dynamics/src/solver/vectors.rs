@@ -1,35 +1,35 @@
-//! Vectors and bivectors of several contacts side by side, in registers and in double precision.
+//! Vectors and bivectors of several contacts side by side, in registers.
 //!
 //! Lane by lane they do what those of [`hyperbody_math`] do, in the same order, so that bits are the same; only zeros of a bivector's
 //! diagonal are not multiplied.
 
 use std::ops::{Add, Mul, Sub};
 
-use super::bodies::PlaneNumbers;
-use super::lanes::{DoubleLanes, Lanes, Real};
+use super::bodies::{PlaneNumbers, Sizes};
+use super::lanes::{DoubleLanes, Lanes};
 use super::machine::Machine;
-use super::wide::Doubles;
+use super::part::{Part, Place};
 
 /// A vector of each contact.
 #[derive(Clone, Copy)]
-pub(crate) struct Vectors<const N: usize, M: Machine>(pub(crate) [Doubles<M>; N]);
+pub(crate) struct Vectors<const N: usize, M: Machine>(pub(crate) [Part<M>; N]);
 
 /// A bivector of each contact, by planes.
 #[derive(Clone, Copy)]
-pub(crate) struct Bivectors<const N: usize, M: Machine>(PlaneNumbers<N, Doubles<M>>);
+pub(crate) struct Bivectors<const N: usize, M: Machine>(PlaneNumbers<N, Part<M>>);
 
 impl<const N: usize, M: Machine> Vectors<N, M> {
     #[inline(always)]
-    pub(crate) fn zero(machine: M) -> Self {
-        Self([Doubles::zero(machine); N])
+    pub(crate) fn zero(place: Place<M>) -> Self {
+        Self([place.zero(); N])
     }
 
     /// From memory.
     #[inline(always)]
-    pub(crate) fn load(machine: M, lanes: &[DoubleLanes; N]) -> Self {
-        let mut vectors = Self::zero(machine);
+    pub(crate) fn load(place: Place<M>, lanes: &[DoubleLanes; N]) -> Self {
+        let mut vectors = Self::zero(place);
         for i in 0..N {
-            vectors.0[i] = lanes[i].on(machine);
+            vectors.0[i] = lanes[i].at(place);
         }
         vectors
     }
@@ -38,18 +38,18 @@ impl<const N: usize, M: Machine> Vectors<N, M> {
     #[inline(always)]
     pub(crate) fn store(&self, rows: &mut [Lanes]) {
         for (row, value) in rows[..N].iter_mut().zip(&self.0) {
-            *row = value.lanes();
+            value.store(row);
         }
     }
 
     #[inline(always)]
-    fn machine(&self) -> M {
-        self.0[0].machine()
+    fn place(&self) -> Place<M> {
+        self.0[0].place()
     }
 
     #[inline(always)]
-    pub(crate) fn dot(&self, other: &Self) -> Doubles<M> {
-        let mut sum = Doubles::zero(self.machine());
+    pub(crate) fn dot(&self, other: &Self) -> Part<M> {
+        let mut sum = self.place().zero();
         for i in 0..N {
             sum += self.0[i] * other.0[i];
         }
@@ -59,11 +59,11 @@ impl<const N: usize, M: Machine> Vectors<N, M> {
     /// In the frames with these axes, which are rows by the axes of this one.
     #[inline(always)]
     pub(crate) fn in_frame(&self, axes: &[[DoubleLanes; N]; N]) -> Self {
-        let machine = self.machine();
-        let mut seen = Self::zero(machine);
+        let place = self.place();
+        let mut seen = Self::zero(place);
         for (value, row) in self.0.iter().zip(axes) {
             for (seen, number) in seen.0.iter_mut().zip(row) {
-                *seen += number.on(machine) * *value;
+                *seen += number.at(place) * *value;
             }
         }
         seen
@@ -72,27 +72,27 @@ impl<const N: usize, M: Machine> Vectors<N, M> {
     /// [`hyperbody_math::Vector::orthonormal_complement`].
     #[inline(always)]
     pub(crate) fn orthonormal_complement(&self) -> [Self; N] {
-        let machine = self.machine();
-        let (zero, one) = (Doubles::zero(machine), Doubles::splat(machine, 1.0));
+        let place = self.place();
+        let (zero, one) = (place.zero(), place.splat(1.0));
         let (mut axis, mut component, mut largest) = (zero, self.0[0], self.0[0].abs());
         for i in 1..N {
             let size = self.0[i].abs();
             let longer = size - largest;
-            axis = longer.select_positive(Doubles::splat(machine, i as Real), axis);
+            axis = longer.select_positive(place.splat(i as f64), axis);
             component = longer.select_positive(self.0[i], component);
             largest = size.max(largest);
         }
         let sign = (zero - component).select_positive(zero - one, one);
         let mut u = *self;
         for i in 0..N {
-            let off = axis - Doubles::splat(machine, i as Real);
+            let off = axis - place.splat(i as f64);
             u.0[i] = (off * off).select_positive(u.0[i], u.0[i] + sign);
         }
         let inverse = u.dot(&u).inverse_or_zero();
         let factor = inverse + inverse;
-        let mut basis = [Self::zero(machine); N];
+        let mut basis = [Self::zero(place); N];
         for slot in 0..N - 1 {
-            let is_before = axis - Doubles::splat(machine, slot as Real);
+            let is_before = axis - place.splat(slot as f64);
             let along = factor * is_before.select_positive(u.0[slot], u.0[slot + 1]);
             for i in 0..N {
                 let unit = if i == slot {
@@ -111,32 +111,32 @@ impl<const N: usize, M: Machine> Vectors<N, M> {
 
 impl<const N: usize, M: Machine> Bivectors<N, M> {
     #[inline(always)]
-    pub(crate) fn zero(machine: M) -> Self {
-        Self(PlaneNumbers::splat(Doubles::zero(machine)))
+    pub(crate) fn zero(place: Place<M>) -> Self {
+        Self(PlaneNumbers::splat(place.zero()))
     }
 
     /// From memory.
     #[inline(always)]
-    pub(crate) fn load(machine: M, lanes: &PlaneNumbers<N, DoubleLanes>) -> Self {
-        let mut planes = Self::zero(machine);
-        for (plane, lanes) in planes.0.iter_mut().zip(&**lanes) {
-            *plane = lanes.on(machine);
+    pub(crate) fn load(place: Place<M>, lanes: &PlaneNumbers<N, DoubleLanes>) -> Self {
+        let mut planes = Self::zero(place);
+        for k in 0..Sizes::<N>::K {
+            planes.0[k] = lanes[k].at(place);
         }
         planes
     }
 
     /// From memory, if it is there.
     #[inline(always)]
-    pub(crate) fn load_or_zero(machine: M, lanes: Option<&PlaneNumbers<N, DoubleLanes>>) -> Self {
+    pub(crate) fn load_or_zero(place: Place<M>, lanes: Option<&PlaneNumbers<N, DoubleLanes>>) -> Self {
         match lanes {
-            Some(lanes) => Self::load(machine, lanes),
-            None => Self::zero(machine),
+            Some(lanes) => Self::load(place, lanes),
+            None => Self::zero(place),
         }
     }
 
     #[inline(always)]
     pub(crate) fn wedge(a: &Vectors<N, M>, b: &Vectors<N, M>) -> Self {
-        let mut wedge = Self::zero(a.machine());
+        let mut wedge = Self::zero(a.place());
         let mut k = 0;
         for i in 0..N {
             for j in i + 1..N {
@@ -148,10 +148,10 @@ impl<const N: usize, M: Machine> Bivectors<N, M> {
     }
 
     #[inline(always)]
-    pub(crate) fn dot(&self, other: &Self) -> Doubles<M> {
-        let mut sum = Doubles::zero(self.0[0].machine());
-        for (a, b) in self.0.iter().zip(&*other.0) {
-            sum += *a * *b;
+    pub(crate) fn dot(&self, other: &Self) -> Part<M> {
+        let mut sum = self.0[0].place().zero();
+        for k in 0..Sizes::<N>::K {
+            sum += self.0[k] * other.0[k];
         }
         sum
     }
@@ -159,7 +159,7 @@ impl<const N: usize, M: Machine> Bivectors<N, M> {
     /// The contraction with a vector: of an angular velocity, how a point at that offset moves.
     #[inline(always)]
     pub(crate) fn act_on(&self, r: &Vectors<N, M>) -> Vectors<N, M> {
-        let mut result = Vectors::zero(r.machine());
+        let mut result = Vectors::zero(r.place());
         let mut k = 0;
         for i in 0..N {
             for j in i + 1..N {
@@ -174,8 +174,9 @@ impl<const N: usize, M: Machine> Bivectors<N, M> {
     /// Times a number a plane, in single precision, into the first rows.
     #[inline(always)]
     pub(crate) fn store_scaled(&self, scales: &PlaneNumbers<N, DoubleLanes>, rows: &mut [Lanes]) {
-        for ((row, plane), scale) in rows.iter_mut().zip(&*self.0).zip(&**scales) {
-            *row = (*plane * scale.on(plane.machine())).lanes();
+        let rows = &mut rows[..Sizes::<N>::K];
+        for k in 0..Sizes::<N>::K {
+            (self.0[k] * scales[k].at(self.0[k].place())).store(&mut rows[k]);
         }
     }
 }
@@ -202,10 +203,10 @@ impl<const N: usize, M: Machine> Sub for Vectors<N, M> {
     }
 }
 
-impl<const N: usize, M: Machine> Mul<Doubles<M>> for Vectors<N, M> {
+impl<const N: usize, M: Machine> Mul<Part<M>> for Vectors<N, M> {
     type Output = Self;
     #[inline(always)]
-    fn mul(mut self, factor: Doubles<M>) -> Self {
+    fn mul(mut self, factor: Part<M>) -> Self {
         for i in 0..N {
             self.0[i] = self.0[i] * factor;
         }
@@ -217,8 +218,8 @@ impl<const N: usize, M: Machine> Sub for Bivectors<N, M> {
     type Output = Self;
     #[inline(always)]
     fn sub(mut self, other: Self) -> Self {
-        for (a, b) in self.0.iter_mut().zip(&*other.0) {
-            *a -= *b;
+        for k in 0..Sizes::<N>::K {
+            self.0[k] -= other.0[k];
         }
         self
     }
@@ -230,7 +231,7 @@ mod tests {
 
     use super::*;
     use crate::solver::lanes::WIDTH;
-    use crate::solver::machine::{Pass, Processor};
+    use crate::solver::machine::{Pass, Plain, Processor};
 
     struct Everything<'a, const N: usize> {
         units: &'a [Vector<N>; WIDTH],
@@ -242,26 +243,28 @@ mod tests {
     }
 
     fn assert_same<const N: usize, M: Machine>(found: &Vectors<N, M>, expected: impl Fn(usize) -> Vector<N>) {
-        for lane in 0..WIDTH {
-            let found = Vector::from_fn(|i| found.0[i].values()[lane]);
-            assert_eq!(found.0.map(f64::to_bits), expected(lane).0.map(f64::to_bits), "lane {lane} in {N}D");
-        }
+        let expected = Vectors::load(found.place(), &side_by_side(&std::array::from_fn(expected)));
+        let mut difference = [Lanes::ZERO; N];
+        (*found - expected).store(&mut difference);
+        assert_eq!(difference, [Lanes::ZERO; N], "in {N}D");
     }
 
     impl<const N: usize> Pass for Everything<'_, N> {
         #[inline(always)]
         fn run<M: Machine>(self, machine: M) {
             let Self { units, others } = self;
-            let u = Vectors::load(machine, &side_by_side(units));
-            let v = Vectors::load(machine, &side_by_side(others));
-            for (slot, tangent) in u.orthonormal_complement().iter().enumerate() {
-                assert_same(tangent, |lane| units[lane].orthonormal_complement()[slot]);
-            }
             let plane = |lane: usize| Bivector::wedge(units[lane], others[lane]);
-            let (wedge, sum) = (Bivectors::wedge(&u, &v), u + v);
-            assert_same(&wedge.act_on(&sum), |lane| plane(lane).act_on(units[lane] + others[lane]));
-            assert_same(&(u * v.dot(&u)), |lane| units[lane] * others[lane].dot(units[lane]));
-            assert_same(&(v * wedge.dot(&wedge)), |lane| others[lane] * plane(lane).dot(&plane(lane)));
+            for place in Place::all(machine) {
+                let u = Vectors::load(place, &side_by_side(units));
+                let v = Vectors::load(place, &side_by_side(others));
+                for (slot, tangent) in u.orthonormal_complement().iter().enumerate() {
+                    assert_same(tangent, |lane| units[lane].orthonormal_complement()[slot]);
+                }
+                let (wedge, sum) = (Bivectors::wedge(&u, &v), u + v);
+                assert_same(&wedge.act_on(&sum), |lane| plane(lane).act_on(units[lane] + others[lane]));
+                assert_same(&(u * v.dot(&u)), |lane| units[lane] * others[lane].dot(units[lane]));
+                assert_same(&(v * wedge.dot(&wedge)), |lane| others[lane] * plane(lane).dot(&plane(lane)));
+            }
         }
     }
 
@@ -281,11 +284,12 @@ mod tests {
                 Vector::from_fn(|i| if i == trial % N { -1.0 } else { 1.0 }).normalize_or_zero();
             let others = std::array::from_fn(|_| Vector::from_fn(|_| random()));
             Processor::of_this_machine().run(Everything { units: &units, others: &others });
+            Everything { units: &units, others: &others }.run(Plain);
         }
     }
 
     #[test]
-    fn lanes_are_vectors_to_the_bit() {
+    fn lanes_do_what_vectors_do() {
         check::<2>();
         check::<3>();
         check::<4>();

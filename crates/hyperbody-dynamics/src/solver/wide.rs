@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-use super::lanes::{DoubleLanes, Lanes, Real, WIDTH};
+use super::lanes::{Lanes, Real, WIDTH};
 use super::machine::Machine;
 
 /// Lanes in registers of a machine.
@@ -17,14 +17,6 @@ impl Lanes {
     #[inline(always)]
     pub(crate) fn on<M: Machine>(self, machine: M) -> Wide<M> {
         Wide { vector: machine.load(self), machine }
-    }
-}
-
-impl DoubleLanes {
-    /// In registers.
-    #[inline(always)]
-    pub(crate) fn on<M: Machine>(self, machine: M) -> Doubles<M> {
-        Doubles::of(machine, self.0)
     }
 }
 
@@ -220,19 +212,8 @@ impl<M: Machine> Doubles<M> {
     }
 
     #[inline(always)]
-    pub(crate) fn abs(self) -> Self {
-        self.max(Self::zero(self.machine) - self)
-    }
-
-    #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.with(self.machine.sqrt_doubles(self.vectors))
-    }
-
-    /// Lane by lane: `positive` where `self` > 0, else `otherwise`.
-    #[inline(always)]
-    pub(crate) fn select_positive(self, positive: Self, otherwise: Self) -> Self {
-        self.with(self.machine.select_positive_doubles(self.vectors, positive.vectors, otherwise.vectors))
     }
 
     /// 1 over it where it is > 0, else 0.

@@ -7,7 +7,7 @@ use hyperbody_math::{Bivector, Vector};
 use super::Block;
 use crate::pairs::{Contact, Touch};
 use crate::solver::bodies::{PlaneNumbers, SolverBody};
-use crate::solver::lanes::{DoubleLanes, Lanes, Real, WIDTH};
+use crate::solver::lanes::{DoubleLanes, WIDTH};
 
 /// A bivector of each contact.
 pub(super) type PlaneLanes<const N: usize> = PlaneNumbers<N, DoubleLanes>;
@@ -27,7 +27,7 @@ pub(crate) struct Gathered<const N: usize> {
     /// Of blocks that resist: against rolling, against twisting.
     pub(super) resistance: [DoubleLanes; 2],
     /// Points of each contact.
-    pub(super) counts: Lanes,
+    pub(super) counts: DoubleLanes,
     /// As many as the block has; zero where a contact has fewer.
     pub(super) points: [Point<N>; MAX_POINTS],
 }
@@ -57,7 +57,7 @@ pub(super) struct Surfaces<const N: usize> {
 pub(super) struct Point<const N: usize> {
     pub(super) position: [DoubleLanes; N],
     pub(super) gap: DoubleLanes,
-    pub(super) impulse: Lanes,
+    pub(super) impulse: DoubleLanes,
 }
 
 /// What few contacts have.
@@ -94,7 +94,7 @@ impl<const N: usize> Gathered<N> {
         surfaces: Rare { any: false, value: Surfaces::ZERO },
         twist_impulse: PlaneNumbers::splat(DoubleLanes::ZERO),
         resistance: [DoubleLanes::ZERO; 2],
-        counts: Lanes::ZERO,
+        counts: DoubleLanes::ZERO,
         points: [Point::ZERO; MAX_POINTS],
     };
 
@@ -135,7 +135,7 @@ impl<const N: usize> Gathered<N> {
             self.resistance[0].0[lane] = contact.resistance.0;
             self.resistance[1].0[lane] = contact.resistance.1;
         }
-        self.counts.0[lane] = contact.touches.len() as Real;
+        self.counts.0[lane] = contact.touches.len() as f64;
         let mut touches = contact.touches.iter();
         for point in &mut self.points[..block.points] {
             match touches.next() {
@@ -190,13 +190,13 @@ impl<const N: usize> Surfaces<N> {
 }
 
 impl<const N: usize> Point<N> {
-    const ZERO: Self = Self { position: [DoubleLanes::ZERO; N], gap: DoubleLanes::ZERO, impulse: Lanes::ZERO };
+    const ZERO: Self = Self { position: [DoubleLanes::ZERO; N], gap: DoubleLanes::ZERO, impulse: DoubleLanes::ZERO };
 
     #[inline(always)]
     fn fill(&mut self, lane: usize, touch: &Touch<N>) {
         set_vector(&mut self.position, lane, touch.point.position);
         self.gap.0[lane] = touch.point.separation;
-        self.impulse.0[lane] = touch.normal_impulse;
+        self.impulse.0[lane] = f64::from(touch.normal_impulse);
     }
 
     fn clear(&mut self, lane: usize) {

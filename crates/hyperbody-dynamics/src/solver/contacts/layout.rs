@@ -3,6 +3,7 @@
 use super::Block;
 use super::round::RoundLayout;
 use crate::solver::bodies::Sizes;
+use crate::solver::lanes::Lanes;
 
 /// Positions, in lanes, inside a block: header, sliding rows, their mass matrix, twisting rows, the field of the normal
 /// rows, the points, the response matrix of those, and what resists rolling and twisting.
@@ -103,6 +104,17 @@ impl<const N: usize> Layout<N> {
     #[inline(always)]
     pub(crate) fn resistance_start(block: &Block) -> usize {
         Self::response_start(block) + block.points * (block.points + 1) / 2
+    }
+
+    /// Sets what adds up from substep to substep to nothing.
+    #[inline(always)]
+    pub(crate) fn start_sums(block: &Block, rows: &mut [Lanes]) {
+        rows[Self::EXCESS..Self::HEADER].fill(Lanes::ZERO);
+        let points = &mut rows[Self::points_start(block)..Self::response_start(block)];
+        for row in points.chunks_exact_mut(Self::POINT_ROW) {
+            row[Self::POINT_STEP_IMPULSE] = Lanes::ZERO;
+            row[Self::POINT_ARC] = Lanes::ZERO;
+        }
     }
 
     /// Where what turning adds to the gap of a point stands.

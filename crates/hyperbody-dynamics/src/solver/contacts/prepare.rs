@@ -1,19 +1,19 @@
-//! From gathered contacts to rows, for eight contacts at once; and from solved rows back to the pair's warm start.
+//! From gathered contacts to rows, for as many contacts at once as a register holds; and from solved rows back to the pair's warm start.
 
 use hyperbody_math::{Bivector, Vector};
 
 use super::arms::Arms;
 use super::gather::{Gathered, Side};
 use super::response::Response;
-use super::round::RoundPasses;
+use super::round::{RoundLayout, RoundPasses};
 use super::{Block, Layout, round};
 use crate::pairs::Contact;
 use crate::solver::bodies::Sizes;
-use crate::solver::lanes::{DoubleLanes, Lanes, Real};
+use crate::solver::lanes::Lanes;
 use crate::solver::machine::{Machine, Pass};
+use crate::solver::part::{Part, Place};
 use crate::solver::softness::Softness;
 use crate::solver::vectors::{Bivectors, Vectors};
-use crate::solver::wide::{Doubles, Wide};
 
 /// How contacts give way.
 #[derive(Clone, Copy, Debug)]
@@ -41,47 +41,58 @@ impl<const N: usize> Pass for Prepare<'_, N> {
     #[inline(always)]
     fn run<M: Machine>(self, machine: M) {
         let Self { block, rows, gathered, springs } = self;
-        coefficients(machine, rows, gathered, springs);
+        for place in Place::all(machine) {
+            coefficients(place, rows, gathered, springs);
+            if block.round {
+                RoundPasses::<N, M>::prepare(place, rows, gathered);
+            } else {
+                Manifolds::<N, M>::new(place, block, gathered).write(rows);
+            }
+        }
         if block.round {
-            RoundPasses::<N, M>::prepare(machine, rows, gathered);
+            RoundLayout::<N>::start_sums(rows);
         } else {
-            Manifolds::<N, M>::new(machine, block, gathered).write(rows);
-            Response::<N>::write(machine, block, rows, gathered.counts);
+            Layout::<N>::start_sums(block, rows);
+            Response::<N>::write(machine, block, rows, &gathered.counts);
         }
     }
 }
 
 /// What all blocks start with.
 #[inline(always)]
-fn coefficients<const N: usize, M: Machine>(machine: M, rows: &mut [Lanes], gathered: &Gathered<N>, springs: &Springs) {
+fn coefficients<const N: usize, M: Machine>(
+    place: Place<M>,
+    rows: &mut [Lanes],
+    gathered: &Gathered<N>,
+    springs: &Springs,
+) {
     let rows = &mut rows[..Layout::<N>::COEFFICIENTS];
     let Springs { soft, stiff } = springs;
-    let masses @ (a, b) = inverse_sqrt_masses(machine, gathered);
-    rows[Layout::<N>::INVERSE_SQRT_MASS_A] = a.lanes();
-    rows[Layout::<N>::INVERSE_SQRT_MASS_B] = b.lanes();
-    rows[Layout::<N>::FRICTION] = gathered.friction.on(machine).lanes();
-    rows[Layout::<N>::RESTITUTION] = gathered.restitution.on(machine).lanes();
-    rows[Layout::<N>::BIAS_RATE] = by_spring(masses, soft.bias_rate, stiff.bias_rate).lanes();
+    let masses @ (a, b) = inverse_sqrt_masses(place, gathered);
+    a.store(&mut rows[Layout::<N>::INVERSE_SQRT_MASS_A]);
+    b.store(&mut rows[Layout::<N>::INVERSE_SQRT_MASS_B]);
+    gathered.friction.at(place).store(&mut rows[Layout::<N>::FRICTION]);
+    gathered.restitution.at(place).store(&mut rows[Layout::<N>::RESTITUTION]);
+    by_spring(masses, soft.bias_rate, stiff.bias_rate).store(&mut rows[Layout::<N>::BIAS_RATE]);
     // The spring is the manifold's, shared evenly by its points: a patch is as stiff with sixteen corners as with one.
-    let share = (a * a + b * b) * gathered.counts.on(machine).doubles();
+    let share = (a * a + b * b) * gathered.counts.at(place);
     let softness_share = by_spring(masses, soft.compliance().max(RIGID_SHARE), stiff.compliance().max(RIGID_SHARE));
-    rows[Layout::<N>::SOFTNESS] = (share * softness_share).lanes();
-    rows[Layout::<N>::STIFFENER] = (share * DoubleLanes::splat(RIGID_SHARE).on(machine)).lanes();
+    (share * softness_share).store(&mut rows[Layout::<N>::SOFTNESS]);
+    (share * place.splat(RIGID_SHARE)).store(&mut rows[Layout::<N>::STIFFENER]);
 }
 
 #[inline(always)]
 pub(super) fn inverse_sqrt_masses<const N: usize, M: Machine>(
-    machine: M,
+    place: Place<M>,
     gathered: &Gathered<N>,
-) -> (Doubles<M>, Doubles<M>) {
-    (gathered.a.inverse_sqrt_mass.on(machine), gathered.b.inverse_sqrt_mass.on(machine))
+) -> (Part<M>, Part<M>) {
+    (gathered.a.inverse_sqrt_mass.at(place), gathered.b.inverse_sqrt_mass.at(place))
 }
 
 /// `soft` where both bodies move, else `stiff`.
 #[inline(always)]
-fn by_spring<M: Machine>((a, b): (Doubles<M>, Doubles<M>), soft: f64, stiff: f64) -> Doubles<M> {
-    let machine = a.machine();
-    let (soft, stiff) = (DoubleLanes::splat(soft).on(machine), DoubleLanes::splat(stiff).on(machine));
+fn by_spring<M: Machine>((a, b): (Part<M>, Part<M>), soft: f64, stiff: f64) -> Part<M> {
+    let (soft, stiff) = (a.place().splat(soft), a.place().splat(stiff));
     a.select_positive(b.select_positive(soft, stiff), stiff)
 }
 
@@ -94,18 +105,18 @@ pub(super) struct BaseMotion<const N: usize, M: Machine> {
 impl<const N: usize, M: Machine> BaseMotion<N, M> {
     /// At the given offsets from both centres.
     #[inline(always)]
-    pub(super) fn at(machine: M, gathered: &Gathered<N>, (a, b): (&Vectors<N, M>, &Vectors<N, M>)) -> Self {
-        let (velocity_a, acceleration_a) = base_motion_of(machine, &gathered.a, a);
-        let (velocity_b, acceleration_b) = base_motion_of(machine, &gathered.b, b);
+    pub(super) fn at(place: Place<M>, gathered: &Gathered<N>, (a, b): (&Vectors<N, M>, &Vectors<N, M>)) -> Self {
+        let (velocity_a, acceleration_a) = base_motion_of(place, &gathered.a, a);
+        let (velocity_b, acceleration_b) = base_motion_of(place, &gathered.b, b);
         Self { velocity: velocity_b - velocity_a, acceleration: acceleration_b - acceleration_a }
     }
 
     /// Of the centres.
     #[inline(always)]
-    pub(super) fn of_centres(machine: M, Gathered { a, b, .. }: &Gathered<N>) -> Self {
+    pub(super) fn of_centres(place: Place<M>, Gathered { a, b, .. }: &Gathered<N>) -> Self {
         Self {
-            velocity: Vectors::load(machine, &b.velocity) - Vectors::load(machine, &a.velocity),
-            acceleration: Vectors::load(machine, &b.acceleration) - Vectors::load(machine, &a.acceleration),
+            velocity: Vectors::load(place, &b.velocity) - Vectors::load(place, &a.velocity),
+            acceleration: Vectors::load(place, &b.acceleration) - Vectors::load(place, &a.acceleration),
         }
     }
 }
@@ -113,22 +124,22 @@ impl<const N: usize, M: Machine> BaseMotion<N, M> {
 /// Velocity and acceleration of the point at offset `r`.
 #[inline(always)]
 fn base_motion_of<const N: usize, M: Machine>(
-    machine: M,
+    place: Place<M>,
     side: &Side<N>,
     r: &Vectors<N, M>,
 ) -> (Vectors<N, M>, Vectors<N, M>) {
-    let spin = Bivectors::load(machine, &side.angular_velocity);
-    let velocity = Vectors::load(machine, &side.velocity) + spin.act_on(r);
-    let mut acceleration = Vectors::load(machine, &side.acceleration);
+    let spin = Bivectors::load(place, &side.angular_velocity);
+    let velocity = Vectors::load(place, &side.velocity) + spin.act_on(r);
+    let mut acceleration = Vectors::load(place, &side.acceleration);
     if let Some(spin_up) = side.angular_acceleration.get() {
-        acceleration = acceleration + Bivectors::load(machine, spin_up).act_on(r);
+        acceleration = acceleration + Bivectors::load(place, spin_up).act_on(r);
     }
     (velocity, acceleration)
 }
 
 /// The contacts of a block that are not those of balls, while its rows are made.
 struct Manifolds<'a, const N: usize, M: Machine> {
-    machine: M,
+    place: Place<M>,
     block: &'a Block,
     gathered: &'a Gathered<N>,
     normal: Vectors<N, M>,
@@ -139,25 +150,25 @@ struct Manifolds<'a, const N: usize, M: Machine> {
 
 impl<'a, const N: usize, M: Machine> Manifolds<'a, N, M> {
     #[inline(always)]
-    fn new(machine: M, block: &'a Block, gathered: &'a Gathered<N>) -> Self {
-        let share = gathered.counts.on(machine).doubles().inverse_or_zero();
-        let mut centre = Vectors::zero(machine);
+    fn new(place: Place<M>, block: &'a Block, gathered: &'a Gathered<N>) -> Self {
+        let share = gathered.counts.at(place).inverse_or_zero();
+        let mut centre = Vectors::zero(place);
         for point in &gathered.points[..block.points] {
-            centre = centre + Vectors::load(machine, &point.position) * share;
+            centre = centre + Vectors::load(place, &point.position) * share;
         }
-        let normal = Vectors::load(machine, &gathered.normal);
-        Self { machine, block, gathered, normal, tangents: normal.orthonormal_complement(), centre }
+        let normal = Vectors::load(place, &gathered.normal);
+        Self { place, block, gathered, normal, tangents: normal.orthonormal_complement(), centre }
     }
 
     /// All but what [`Response`] adds.
     #[inline(always)]
     fn write(&self, rows: &mut [Lanes]) {
-        let Self { machine, gathered: Gathered { a, b, .. }, .. } = *self;
-        let offset_a = self.centre - Vectors::load(machine, &a.centre);
-        let offset_b = self.centre - Vectors::load(machine, &b.centre);
+        let Self { place, gathered: Gathered { a, b, .. }, .. } = *self;
+        let offset_a = self.centre - Vectors::load(place, &a.centre);
+        let offset_b = self.centre - Vectors::load(place, &b.centre);
         Arms::new(a, &offset_a, &self.normal, &self.tangents).write(self.block, rows);
         Arms::new(b, &offset_b, &self.normal, &self.tangents).write(self.block, &mut rows[Sizes::<N>::K..]);
-        let motion = BaseMotion::at(machine, self.gathered, (&offset_a, &offset_b));
+        let motion = BaseMotion::at(place, self.gathered, (&offset_a, &offset_b));
         self.centres(rows);
         self.sliding(&motion, rows);
         self.turning(rows);
@@ -172,60 +183,61 @@ impl<'a, const N: usize, M: Machine> Manifolds<'a, N, M> {
     #[inline(always)]
     fn centres(&self, rows: &mut [Lanes]) {
         let rows = &mut rows[..Layout::<N>::HEADER];
-        let motion = BaseMotion::of_centres(self.machine, self.gathered);
+        let motion = BaseMotion::of_centres(self.place, self.gathered);
         self.normal.store(&mut rows[Layout::<N>::NORMAL..]);
         motion.velocity.store(&mut rows[Layout::<N>::CENTRE_VELOCITY..]);
         motion.acceleration.store(&mut rows[Layout::<N>::CENTRE_ACCELERATION..]);
-        rows[Layout::<N>::EXCESS..].fill(Lanes::ZERO);
     }
 
     #[inline(always)]
     fn sliding(&self, motion: &BaseMotion<N, M>, rows: &mut [Lanes]) {
         let mut velocity = motion.velocity;
         if let Some(surfaces) = self.gathered.surfaces.get() {
-            velocity = velocity + Vectors::load(self.machine, &surfaces.whole);
+            velocity = velocity + Vectors::load(self.place, &surfaces.whole);
         }
-        let held = Vectors::load(self.machine, &self.gathered.friction_impulse);
+        let held = Vectors::load(self.place, &self.gathered.friction_impulse);
         let rows = rows[Layout::<N>::HEADER..Layout::<N>::SLIDE_MASS].chunks_exact_mut(Layout::<N>::SLIDE_ROW);
         for (row, tangent) in rows.zip(&self.tangents) {
             tangent.store(row);
-            row[Layout::<N>::SLIDE_VELOCITY] = velocity.dot(tangent).lanes();
-            row[Layout::<N>::SLIDE_ACCELERATION] = motion.acceleration.dot(tangent).lanes();
-            row[Layout::<N>::SLIDE_IMPULSE] = held.dot(tangent).lanes();
+            velocity.dot(tangent).store(&mut row[Layout::<N>::SLIDE_VELOCITY]);
+            motion.acceleration.dot(tangent).store(&mut row[Layout::<N>::SLIDE_ACCELERATION]);
+            held.dot(tangent).store(&mut row[Layout::<N>::SLIDE_IMPULSE]);
         }
     }
 
     /// Twisting rows, which are the planes of the tangent space, their bivectors orthonormal; and the slopes of the normal field.
     #[inline(always)]
     fn turning(&self, rows: &mut [Lanes]) {
-        let Self { machine, block, gathered: Gathered { a, b, .. }, ref normal, ref tangents, .. } = *self;
-        let spin = Bivectors::load(machine, &b.angular_velocity) - Bivectors::load(machine, &a.angular_velocity);
+        let Self { place, block, gathered: Gathered { a, b, .. }, ref normal, ref tangents, .. } = *self;
+        let spin = Bivectors::load(place, &b.angular_velocity) - Bivectors::load(place, &a.angular_velocity);
         let spin_up = match (a.angular_acceleration.get(), b.angular_acceleration.get()) {
             (None, None) => None,
-            (a, b) => Some(Bivectors::load_or_zero(machine, b) - Bivectors::load_or_zero(machine, a)),
+            (a, b) => Some(Bivectors::load_or_zero(place, b) - Bivectors::load_or_zero(place, a)),
         };
         let (field, points) = (Layout::<N>::field_start(block), Layout::<N>::points_start(block));
         if block.twists > 0 {
-            let held = Bivectors::load(machine, &self.gathered.twist_impulse);
+            let held = Bivectors::load(place, &self.gathered.twist_impulse);
             let mut rows = rows[Layout::<N>::TWIST_ROWS..field].chunks_exact_mut(Layout::<N>::TWIST_ROW);
             for s in 0..Layout::<N>::SLIDES {
                 for (t, row) in (s + 1..Layout::<N>::SLIDES).zip(&mut rows) {
                     let plane = Bivectors::wedge(&tangents[s], &tangents[t]);
-                    row[Layout::<N>::TWIST_VELOCITY] = spin.dot(&plane).lanes();
-                    row[Layout::<N>::TWIST_ACCELERATION] = match &spin_up {
-                        Some(spin_up) => spin_up.dot(&plane).lanes(),
-                        None => Lanes::ZERO,
-                    };
-                    row[Layout::<N>::TWIST_IMPULSE] = held.dot(&plane).lanes();
+                    spin.dot(&plane).store(&mut row[Layout::<N>::TWIST_VELOCITY]);
+                    match &spin_up {
+                        Some(spin_up) => spin_up.dot(&plane),
+                        None => place.zero(),
+                    }
+                    .store(&mut row[Layout::<N>::TWIST_ACCELERATION]);
+                    held.dot(&plane).store(&mut row[Layout::<N>::TWIST_IMPULSE]);
                 }
             }
         }
         for (row, tangent) in rows[field..points].chunks_exact_mut(Layout::<N>::FIELD_ROW).skip(1).zip(tangents) {
-            row[Layout::<N>::FIELD_VELOCITY] = spin.act_on(tangent).dot(normal).lanes();
-            row[Layout::<N>::FIELD_ACCELERATION] = match &spin_up {
-                Some(spin_up) => spin_up.act_on(tangent).dot(normal).lanes(),
-                None => Lanes::ZERO,
-            };
+            spin.act_on(tangent).dot(normal).store(&mut row[Layout::<N>::FIELD_VELOCITY]);
+            match &spin_up {
+                Some(spin_up) => spin_up.act_on(tangent).dot(normal),
+                None => place.zero(),
+            }
+            .store(&mut row[Layout::<N>::FIELD_ACCELERATION]);
         }
     }
 
@@ -234,28 +246,28 @@ impl<'a, const N: usize, M: Machine> Manifolds<'a, N, M> {
     fn field(&self, motion: &BaseMotion<N, M>, rows: &mut [Lanes]) {
         let mut velocity = motion.velocity;
         if let Some(surfaces) = self.gathered.surfaces.get() {
-            velocity = velocity + Vectors::load(self.machine, &surfaces.of_contact);
+            velocity = velocity + Vectors::load(self.place, &surfaces.of_contact);
         }
         let row = &mut rows[Layout::<N>::field_start(self.block)..][..Layout::<N>::FIELD_ROW];
-        row[Layout::<N>::FIELD_VELOCITY] = velocity.dot(&self.normal).lanes();
-        row[Layout::<N>::FIELD_ACCELERATION] = motion.acceleration.dot(&self.normal).lanes();
+        velocity.dot(&self.normal).store(&mut row[Layout::<N>::FIELD_VELOCITY]);
+        motion.acceleration.dot(&self.normal).store(&mut row[Layout::<N>::FIELD_ACCELERATION]);
     }
 
     #[inline(always)]
     fn points(&self, rows: &mut [Lanes]) {
-        let Self { machine, block, gathered, .. } = *self;
-        let counts = gathered.counts.on(machine);
+        let Self { place, block, gathered, .. } = *self;
+        let counts = gathered.counts.at(place);
         let rows = rows[Layout::<N>::points_start(block)..Layout::<N>::response_start(block)]
             .chunks_exact_mut(Layout::<N>::POINT_ROW);
         for ((index, row), point) in rows.enumerate().zip(&gathered.points) {
-            row[Layout::<N>::POINT_GAP] = point.gap.on(machine).lanes();
-            row[Layout::<N>::POINT_IMPULSE] = point.impulse;
-            row[Layout::<N>::POINT_STEP_IMPULSE] = Lanes::ZERO;
-            row[Layout::<N>::POINT_ARC] = Lanes::ZERO;
-            let there = has_point(counts, index);
-            let place = Vectors::load(machine, &point.position) - self.centre;
-            for (lever, tangent) in row[Layout::<N>::POINT_LEVER..].iter_mut().zip(&self.tangents) {
-                *lever = (place.dot(tangent) * there).lanes();
+            point.gap.at(place).store(&mut row[Layout::<N>::POINT_GAP]);
+            point.impulse.at(place).store(&mut row[Layout::<N>::POINT_IMPULSE]);
+            // Lanes with fewer points have none there.
+            let is_there = counts - place.splat(index as f64 + 0.5);
+            let offset = Vectors::load(place, &point.position) - self.centre;
+            let levers = &mut row[Layout::<N>::POINT_LEVER..Layout::<N>::POINT_ROW];
+            for t in 0..Layout::<N>::SLIDES {
+                is_there.select_positive(offset.dot(&self.tangents[t]), place.zero()).store(&mut levers[t]);
             }
         }
     }
@@ -263,24 +275,16 @@ impl<'a, const N: usize, M: Machine> Manifolds<'a, N, M> {
     /// Rolling rows are the slopes of the normal field: the planes of the normal and each tangent.
     #[inline(always)]
     fn resistance(&self, rows: &mut [Lanes]) {
-        let Self { machine, gathered, .. } = *self;
+        let Self { place, gathered, .. } = *self;
         let [rolling, twisting] = &gathered.resistance;
-        let held = Bivectors::load(machine, &gathered.twist_impulse);
+        let held = Bivectors::load(place, &gathered.twist_impulse);
         let rows = &mut rows[Layout::<N>::resistance_start(self.block)..];
-        rows[Layout::<N>::ROLLING] = rolling.on(machine).lanes();
-        rows[Layout::<N>::TWISTING] = twisting.on(machine).lanes();
+        rolling.at(place).store(&mut rows[Layout::<N>::ROLLING]);
+        twisting.at(place).store(&mut rows[Layout::<N>::TWISTING]);
         for (row, tangent) in rows[Layout::<N>::ROLLING_IMPULSES..].iter_mut().zip(&self.tangents) {
-            *row = held.dot(&Bivectors::wedge(tangent, &self.normal)).lanes();
+            held.dot(&Bivectors::wedge(tangent, &self.normal)).store(row);
         }
     }
-}
-
-/// One in the lanes that have a point of this number, else zero.
-#[inline(always)]
-pub(super) fn has_point<M: Machine>(counts: Wide<M>, point: usize) -> Doubles<M> {
-    let machine = counts.machine();
-    let beyond = counts - Wide::splat(machine, point as Real + 0.5);
-    beyond.select_positive(Wide::splat(machine, 1.0), Wide::zero(machine)).doubles()
 }
 
 /// Stores the impulses of one lane in its contact, to warm-start the next step.
@@ -329,7 +333,7 @@ mod tests {
     use super::*;
     use crate::pairs::{Touch, Touches};
     use crate::solver::bodies::SolverBody;
-    use crate::solver::lanes::WIDTH;
+    use crate::solver::lanes::{Real, WIDTH};
     use crate::solver::machine::Processor;
 
     /// What is left over in the rows from the step before does not stay in any of them.

@@ -4,10 +4,9 @@
 //! when they are applied, and a scene that is turned, or placed in more dimensions, would depart ten times as fast.
 
 use super::normal::upper;
-use super::prepare::has_point;
 use super::{Block, Layout};
 use crate::solver::bodies::Sizes;
-use crate::solver::lanes::{Lanes, Real};
+use crate::solver::lanes::{DoubleLanes, Lanes, Real};
 use crate::solver::machine::Machine;
 use crate::solver::wide::{Doubles, Wide};
 
@@ -17,7 +16,7 @@ pub(super) struct Response<const N: usize>;
 impl<const N: usize> Response<N> {
     /// Completes a block whose arms and levers are there.
     #[inline(always)]
-    pub(super) fn write<M: Machine>(machine: M, block: &Block, rows: &mut [Lanes], counts: Lanes) {
+    pub(super) fn write<M: Machine>(machine: M, block: &Block, rows: &mut [Lanes], counts: &DoubleLanes) {
         let a = rows[Layout::<N>::INVERSE_SQRT_MASS_A].on(machine).doubles();
         let b = rows[Layout::<N>::INVERSE_SQRT_MASS_B].on(machine).doubles();
         let inverse_mass = a * a + b * b;
@@ -32,6 +31,7 @@ impl<const N: usize> Response<N> {
             let mass = Self::mass_of_turning(machine, rows, slopes, Layout::<N>::FIELD_ROW, Layout::<N>::SLIDES);
             rows[Layout::<N>::resistance_start(block) + Layout::<N>::ROLLING_MASS] = mass.lanes();
         }
+        let counts = Doubles::of(machine, counts.0).lanes();
         Self::points(block, rows, inverse_mass, counts.on(machine));
     }
 
@@ -105,6 +105,14 @@ impl<const N: usize> Response<N> {
         inverse_trace * largest.inverse_or_zero()
     }
 
+    /// One in the lanes that have a point of this number, else zero.
+    #[inline(always)]
+    fn there<M: Machine>(counts: Wide<M>, point: usize) -> Doubles<M> {
+        let machine = counts.machine();
+        let beyond = counts - Wide::splat(machine, point as Real + 0.5);
+        beyond.select_positive(Wide::splat(machine, 1.0), Wide::zero(machine)).doubles()
+    }
+
     /// Responses of the points to each other, L G Lᵀ with L the places of the points and G the responses of the field.
     #[inline(always)]
     fn points<M: Machine>(block: &Block, rows: &mut [Lanes], inverse_mass: Doubles<M>, counts: Wide<M>) {
@@ -126,7 +134,7 @@ impl<const N: usize> Response<N> {
         for i in 0..block.points {
             let place = &levers[i * Layout::<N>::POINT_ROW + Layout::<N>::POINT_LEVER..][..Layout::<N>::SLIDES];
             // Lanes with fewer points have no response there.
-            let there = has_point(counts, i);
+            let there = Self::there(counts, i);
             let mut to_place = [zero; N];
             for t in 0..used {
                 to_place[t] = g[0][t];
@@ -137,7 +145,7 @@ impl<const N: usize> Response<N> {
             }
             for j in i..block.points {
                 let other = &levers[j * Layout::<N>::POINT_ROW + Layout::<N>::POINT_LEVER..][..Layout::<N>::SLIDES];
-                let there = has_point(counts, j);
+                let there = Self::there(counts, j);
                 let mut sum = to_place[0];
                 for t in 1..used {
                     sum += to_place[t] * other[t - 1].on(machine).doubles();

@@ -18,6 +18,7 @@ use crate::pairs::Contact;
 use crate::solver::bodies::Sizes;
 use crate::solver::lanes::Lanes;
 use crate::solver::machine::Machine;
+use crate::solver::part::Place;
 use crate::solver::vectors::Vectors;
 use crate::solver::wide::Wide;
 
@@ -50,6 +51,14 @@ impl<const N: usize> RoundLayout<N> {
     const FRICTION_IMPULSE: usize = Self::CENTRE_ACCELERATION + N;
     pub(crate) const EXCESS: usize = Self::FRICTION_IMPULSE + N;
     pub(crate) const LEN: usize = Self::EXCESS + Sizes::<N>::K;
+
+    /// Sets what adds up from substep to substep to nothing.
+    #[inline(always)]
+    pub(super) fn start_sums(rows: &mut [Lanes]) {
+        rows[Self::STEP_IMPULSE] = Lanes::ZERO;
+        rows[Self::ARC] = Lanes::ZERO;
+        rows[Self::EXCESS..Self::LEN].fill(Lanes::ZERO);
+    }
 }
 
 /// The passes over blocks of balls, for one dimension and one machine.
@@ -67,44 +76,41 @@ struct Solved<const N: usize, M: Machine> {
 impl<const N: usize, M: Machine> RoundPasses<N, M> {
     /// Makes the rows of a block, all but the coefficients.
     #[inline(always)]
-    pub(super) fn prepare(machine: M, rows: &mut [Lanes], gathered: &Gathered<N>) {
+    pub(super) fn prepare(place: Place<M>, rows: &mut [Lanes], gathered: &Gathered<N>) {
         let rows = &mut rows[..RoundLayout::<N>::LEN];
         let point = &gathered.points[0];
-        let normal = Vectors::load(machine, &gathered.normal);
-        let position = Vectors::load(machine, &point.position);
-        let offset_a = position - Vectors::load(machine, &gathered.a.centre);
-        let offset_b = position - Vectors::load(machine, &gathered.b.centre);
+        let normal = Vectors::load(place, &gathered.normal);
+        let position = Vectors::load(place, &point.position);
+        let offset_a = position - Vectors::load(place, &gathered.a.centre);
+        let offset_b = position - Vectors::load(place, &gathered.b.centre);
         // All moments of a ball are the same.
-        let arm_a = offset_a.dot(&normal) * gathered.a.inverse_sqrt_moments[0].on(machine);
-        let arm_b = offset_b.dot(&normal) * gathered.b.inverse_sqrt_moments[0].on(machine);
-        let (a, b) = inverse_sqrt_masses(machine, gathered);
+        let arm_a = offset_a.dot(&normal) * gathered.a.inverse_sqrt_moments[0].at(place);
+        let arm_b = offset_b.dot(&normal) * gathered.b.inverse_sqrt_moments[0].at(place);
+        let (a, b) = inverse_sqrt_masses(place, gathered);
         let inverse_mass = a * a + b * b;
-        rows[RoundLayout::<N>::ARM_A] = arm_a.lanes();
-        rows[RoundLayout::<N>::ARM_B] = arm_b.lanes();
-        rows[RoundLayout::<N>::INVERSE_MASS] = inverse_mass.lanes();
+        arm_a.store(&mut rows[RoundLayout::<N>::ARM_A]);
+        arm_b.store(&mut rows[RoundLayout::<N>::ARM_B]);
+        inverse_mass.store(&mut rows[RoundLayout::<N>::INVERSE_MASS]);
         let response = inverse_mass + arm_a * arm_a + arm_b * arm_b;
-        rows[RoundLayout::<N>::SLIDE_MASS] = response.inverse_or_zero().lanes();
-        rows[RoundLayout::<N>::GAP] = point.gap.on(machine).lanes();
-        rows[RoundLayout::<N>::IMPULSE] = point.impulse;
-        rows[RoundLayout::<N>::STEP_IMPULSE] = Lanes::ZERO;
-        rows[RoundLayout::<N>::ARC] = Lanes::ZERO;
-        let motion = BaseMotion::at(machine, gathered, (&offset_a, &offset_b));
+        response.inverse_or_zero().store(&mut rows[RoundLayout::<N>::SLIDE_MASS]);
+        point.gap.at(place).store(&mut rows[RoundLayout::<N>::GAP]);
+        point.impulse.at(place).store(&mut rows[RoundLayout::<N>::IMPULSE]);
+        let motion = BaseMotion::at(place, gathered, (&offset_a, &offset_b));
         let (mut meeting, mut sliding) = (motion.velocity, motion.velocity);
         if let Some(surfaces) = gathered.surfaces.get() {
-            meeting = meeting + Vectors::load(machine, &surfaces.of_contact);
-            sliding = sliding + Vectors::load(machine, &surfaces.whole);
+            meeting = meeting + Vectors::load(place, &surfaces.of_contact);
+            sliding = sliding + Vectors::load(place, &surfaces.whole);
         }
-        rows[RoundLayout::<N>::NORMAL_VELOCITY] = meeting.dot(&normal).lanes();
-        rows[RoundLayout::<N>::NORMAL_ACCELERATION] = motion.acceleration.dot(&normal).lanes();
+        meeting.dot(&normal).store(&mut rows[RoundLayout::<N>::NORMAL_VELOCITY]);
+        motion.acceleration.dot(&normal).store(&mut rows[RoundLayout::<N>::NORMAL_ACCELERATION]);
         normal.store(&mut rows[RoundLayout::<N>::NORMAL..]);
         Self::across(&normal, sliding).store(&mut rows[RoundLayout::<N>::VELOCITY..]);
         Self::across(&normal, motion.acceleration).store(&mut rows[RoundLayout::<N>::ACCELERATION..]);
-        let motion = BaseMotion::of_centres(machine, gathered);
+        let motion = BaseMotion::of_centres(place, gathered);
         motion.velocity.store(&mut rows[RoundLayout::<N>::CENTRE_VELOCITY..]);
         motion.acceleration.store(&mut rows[RoundLayout::<N>::CENTRE_ACCELERATION..]);
-        let held = Vectors::load(machine, &gathered.friction_impulse);
+        let held = Vectors::load(place, &gathered.friction_impulse);
         Self::across(&normal, held).store(&mut rows[RoundLayout::<N>::FRICTION_IMPULSE..]);
-        rows[RoundLayout::<N>::EXCESS..].fill(Lanes::ZERO);
     }
 
     /// The part of a vector across the normal.
