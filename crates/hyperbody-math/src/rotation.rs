@@ -151,9 +151,10 @@ impl<const N: usize> Rotation<N> {
             terms += 1;
             next *= bound * scale * INVERSE[terms + 1];
         }
-        let mut sum = Matrix::IDENTITY;
-        for term in (1..=terms).rev() {
-            sum = Matrix::IDENTITY + (velocity * sum) * INVERSE[term];
+        // The innermost bracket is one, which needs no product.
+        let mut sum = Matrix::IDENTITY + velocity * INVERSE[terms];
+        for term in (1..terms).rev() {
+            sum = bracket(&velocity, &sum, INVERSE[term]);
         }
         for _ in 0..halvings {
             sum = sum * sum;
@@ -199,10 +200,37 @@ impl<const N: usize> Rotation<N> {
     /// that rounding from composing never builds up.
     #[inline]
     pub fn reorthonormalize(&mut self) {
-        let gram = self.m.transpose() * self.m;
-        let correction = Matrix::from_fn(|i, j| (if i == j { 1.5 } else { 0.0 }) - 0.5 * gram[i][j]);
-        self.m = self.m * correction;
+        let m = self.m;
+        // Symmetric, as RᵀR is: one half of it is calculated.
+        let mut correction = Matrix::ZERO;
+        for i in 0..N {
+            for j in i..N {
+                let gram = m.column(i).dot(m.column(j));
+                correction[i][j] = (if i == j { 1.5 } else { 0.0 }) - 0.5 * gram;
+                correction[j][i] = correction[i][j];
+            }
+        }
+        self.m = m * correction;
     }
+}
+
+/// A bracket of the exponential series, one plus a product times a factor; `velocity` has no diagonal.
+#[inline(always)]
+fn bracket<const N: usize>(velocity: &Matrix<N>, inner: &Matrix<N>, factor: f64) -> Matrix<N> {
+    let mut bracket = Matrix::IDENTITY;
+    for i in 0..N {
+        // To minus zero anything can be added without changing a bit of it, so this takes no instruction.
+        let mut row = Vector::splat(-0.0);
+        for k in 0..N {
+            if k != i {
+                row += inner.row(k) * velocity[i][k];
+            }
+        }
+        for j in 0..N {
+            bracket[i][j] += row[j] * factor;
+        }
+    }
+    bracket
 }
 
 /// Terms of the exponential series, at most.
