@@ -10,6 +10,9 @@ pub(crate) const IS_HEARD: bool = cfg!(target_arch = "x86_64");
 /// Bytes that come together.
 const LINE: usize = 64;
 
+/// Lines that the points of a contact take, at most, up to 5D.
+const FEW: usize = 8;
+
 /// Asks for the first `bytes` of a value.
 #[inline(always)]
 pub(crate) fn fetch<T>(value: &T, bytes: usize) {
@@ -27,6 +30,11 @@ pub(crate) fn fetch_all<T>(values: &[T]) {
 #[inline(always)]
 fn lines(start: *const i8, bytes: usize) {
     let (mut offset, last) = (0, bytes.saturating_sub(1));
+    // The first few one by one: a loop of any length is laid out for many turns, and to find the way into it takes longer than them.
+    while offset < last && offset < FEW * LINE {
+        hint(start.wrapping_add(offset));
+        offset += LINE;
+    }
     while offset < last {
         hint(start.wrapping_add(offset));
         offset += LINE;
