@@ -10,7 +10,7 @@ use crate::ahead::{IS_HEARD, fetch};
 use crate::balls::Plain;
 use crate::body::Body;
 use crate::handle::Arena;
-use crate::pairs::{Contact, Meeting, Pair, PairRole, Touch, Touches, fetch_contacts};
+use crate::pairs::{Contact, Meeting, Pair, PairRole, Summary, Touch, Touches, fetch_contacts};
 use crate::rules::Hook;
 use crate::seams::{SLIDES, is_suspect};
 use crate::wandering::share_of_b;
@@ -99,12 +99,14 @@ impl<const N: usize> World<N> {
     }
 
     fn measure_contacts(&mut self) {
-        self.max_penetration = 0.0;
-        self.contact_count = 0;
+        let (mut deepest, mut count) = (0.0, 0);
         for (_, pair) in self.pairs.contacts() {
-            self.contact_count += usize::from(pair.touching);
-            self.max_penetration = self.max_penetration.max(pair.deepest);
+            count += usize::from(pair.touching);
+            if pair.deepest > deepest {
+                deepest = pair.deepest;
+            }
         }
+        (self.max_penetration, self.contact_count) = (deepest, count);
     }
 
     /// Deepest overlap of two bodies as they stand now, m. Looks at every pair afresh and changes nothing.
@@ -264,6 +266,8 @@ impl<const N: usize> Update<'_, N> {
         Some([(a, body_a), (b, body_b)])
     }
 
+    /// Searches anew. Apart from the other ways: it needs all registers, which they would miss.
+    #[inline(never)]
     fn look_closer(&self, pair: &mut Pair<N>, way: f64, scratch: &mut Scratch<N>) {
         let Some([(a, body_a), (b, body_b)]) = self.sides(pair) else { return };
         let closing = self.closing_distance(body_a, body_b);
@@ -333,16 +337,19 @@ impl<const N: usize> Update<'_, N> {
         else {
             return;
         };
-        let (world_from_a, world_from_b) = (&a.world_from_collider, &b.world_from_collider);
+        // Copied: for all that the compiler knows, writing points might change them.
+        let (world_from_a, world_from_b) = (a.world_from_collider, b.world_from_collider);
         let normal = world_from_a.rotation.rotate(contact.normal_in_a);
         contact.normal = normal;
+        let mut summary = Summary::default();
         for (Touch { point, .. }, anchors) in contact.touches.iter_mut().zip(&contact.anchors) {
             let on_a = world_from_a.transform_point(anchors.0);
             let on_b = world_from_b.transform_point(anchors.1);
             point.position = (on_a + on_b) * 0.5;
             point.separation = (on_b - on_a).dot(normal);
+            summary.count(point.separation);
         }
-        pair.summarize();
+        pair.note(&summary);
     }
 }
 

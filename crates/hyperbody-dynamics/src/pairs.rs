@@ -248,18 +248,38 @@ impl<const N: usize> Pair<N> {
 
     /// Notes what the manifold holds.
     pub(crate) fn summarize(&mut self) {
-        let (mut deepest, mut touching) = (0.0_f64, 0);
-        for Touch { point, .. } in self.touches() {
-            if point.separation <= 0.0 {
-                deepest = deepest.max(-point.separation);
-                touching += 1;
-            }
-        }
-        #[expect(clippy::cast_possible_truncation, reason = "at most MAX_POINTS")]
-        let points = self.touches().len() as u8;
-        (self.deepest, self.touching, self.points) = (deepest, touching, points);
-        if points == 0 && self.meeting == Meeting::Touching {
+        let mut summary = Summary::default();
+        self.touches().iter().for_each(|touch| summary.count(touch.point.separation));
+        self.note(&summary);
+    }
+
+    /// Notes what is known of the points of the manifold.
+    pub(crate) fn note(&mut self, summary: &Summary) {
+        (self.deepest, self.touching, self.points) = (summary.deepest, summary.touching, summary.points);
+        if summary.points == 0 && self.meeting == Meeting::Touching {
             self.meeting = Meeting::Apart;
+        }
+    }
+}
+
+/// What a pair has at hand of the points of its manifold; see there.
+#[derive(Default)]
+pub(crate) struct Summary {
+    deepest: f64,
+    points: u8,
+    touching: u8,
+}
+
+impl Summary {
+    /// One more point, at a separation in m.
+    #[inline]
+    pub(crate) fn count(&mut self, separation: f64) {
+        self.points += 1;
+        if separation <= 0.0 {
+            self.touching += 1;
+            if -separation > self.deepest {
+                self.deepest = -separation;
+            }
         }
     }
 }
@@ -274,9 +294,11 @@ pub(crate) fn fetch_contacts<const N: usize>(slots: &[Option<Pair<N>>], slot: us
     if let Some(pair) = touching(slot + 16)
         && let Some(contact) = pair.contact.as_deref()
     {
-        let unread_of_balls = std::mem::offset_of!(Contact<N>, friction);
-        let unread = std::mem::offset_of!(Contact<N>, twist_impulse);
-        fetch(contact, if pair.round { unread_of_balls } else { unread });
+        if pair.round {
+            fetch(contact, std::mem::offset_of!(Contact<N>, friction));
+        } else {
+            fetch(contact, std::mem::offset_of!(Contact<N>, twist_impulse));
+        }
     }
     if let Some(pair) = touching(slot + 8).filter(|pair| !pair.round)
         && let Some(contact) = pair.contact.as_deref()
