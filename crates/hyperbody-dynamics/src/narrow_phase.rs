@@ -79,25 +79,28 @@ impl<const N: usize> World<N> {
             }
         }
         self.gather_found();
-        self.measure_contacts();
         if self.drop_ghosts() {
             self.measure_contacts();
         }
     }
 
-    /// Puts what the threads found together, in the order of slots.
+    /// Puts what the threads found together, lists in the order of slots.
     fn gather_found(&mut self) {
         let (pairs, suspects) = (&mut self.pairs, &mut self.seams.suspects);
         pairs.contacts.clear();
         pairs.overlaps.clear();
         suspects.clear();
+        (self.max_penetration, self.contact_count) = (0.0, 0);
         for found in &mut self.found {
+            self.max_penetration = self.max_penetration.max(std::mem::take(&mut found.deepest));
+            self.contact_count += std::mem::take(&mut found.touching);
             pairs.contacts.append(&mut found.contacts);
             pairs.overlaps.append(&mut found.overlaps);
             suspects.append(&mut found.suspects);
         }
     }
 
+    /// Measures what is left of the contacts.
     fn measure_contacts(&mut self) {
         let (mut deepest, mut count) = (0.0, 0);
         for (_, pair) in self.pairs.contacts() {
@@ -152,6 +155,10 @@ pub(crate) struct Found {
     suspects: Vec<u32>,
     /// Pairs of sensors with what they notice.
     overlaps: Vec<u32>,
+    /// Deepest overlap, m.
+    deepest: f64,
+    /// Points that overlap.
+    touching: usize,
 }
 
 impl Found {
@@ -160,6 +167,8 @@ impl Found {
         let slot = slot as u32;
         if pair.points > 0 {
             self.contacts.push(slot);
+            self.deepest = self.deepest.max(pair.deepest);
+            self.touching += usize::from(pair.touching);
         }
         if pair.suspect {
             self.suspects.push(slot);
