@@ -14,6 +14,14 @@ impl<const N: usize> World<N> {
             self.timings = StageTimings::default();
             return;
         }
+        // All of it is done in the pool: each stage that entered it from outside would wait for a thread to wake up.
+        match self.pool.clone() {
+            Some(pool) => pool.attend(|| self.advance()),
+            None => self.advance(),
+        }
+    }
+
+    fn advance(&mut self) {
         let mut watch = Stopwatch::start(self.clock);
         let mut timings = StageTimings::default();
 
@@ -64,7 +72,7 @@ impl<const N: usize> World<N> {
             tuning: &self.tuning,
             dt: self.dt,
             substeps: self.substeps,
-            pool: self.pool.as_ref(),
+            pool: self.pool.as_deref(),
         });
     }
 }

@@ -3,8 +3,18 @@
 //! A browser's module has none. There a pool is a type without values, so that the compiler knows that nothing is ever done
 //! with one: work for several threads, which is a second copy of the longest functions, is not in the module at all.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 /// Bodies from which what is done for each of them alone is worth another thread's while.
 pub(crate) const MANY_BODIES: usize = 500;
+
+/// Pieces into which work that is cut beforehand is cut for so many threads: more of them than threads, so that who is done early helps
+/// the others.
+pub(crate) fn pieces(threads: usize) -> usize {
+    const A_THREAD: usize = 4;
+    if threads > 1 { threads * A_THREAD } else { 1 }
+}
 
 #[cfg(not(target_family = "wasm"))]
 #[derive(Debug)]
@@ -21,6 +31,40 @@ impl Pool {
     pub(crate) fn install<A: Send>(&self, work: impl FnOnce() -> A + Send) -> A {
         self.0.install(work)
     }
+
+    /// Does something in the pool that hands out work many times, with little time between: the other threads stay awake, which to
+    /// be woken takes longer than many a piece of work.
+    pub(crate) fn attend<A: Send>(&self, work: impl FnOnce() -> A + Send) -> A {
+        self.0.install(|| {
+            let here = rayon::current_thread_index();
+            let over = Over(Arc::default());
+            let seen = Arc::clone(&over.0);
+            rayon::spawn_broadcast(move |context| {
+                while Some(context.index()) != here && !seen.load(Ordering::Relaxed) {
+                    if rayon::yield_now() != Some(rayon::Yield::Executed) {
+                        std::thread::yield_now();
+                    }
+                }
+            });
+            work()
+        })
+    }
+
+    /// Does two things at the same time, and waits for both.
+    fn join(&self, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+        self.0.install(|| rayon::join(one, other));
+    }
+}
+
+/// Says, when it goes, that no more work comes.
+#[cfg(not(target_family = "wasm"))]
+struct Over(Arc<AtomicBool>);
+
+#[cfg(not(target_family = "wasm"))]
+impl Drop for Over {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
 }
 
 #[cfg(target_family = "wasm")]
@@ -36,4 +80,33 @@ impl Pool {
     pub(crate) fn install<A: Send>(&self, _: impl FnOnce() -> A + Send) -> A {
         match *self {}
     }
+
+    pub(crate) fn attend<A: Send>(&self, _: impl FnOnce() -> A + Send) -> A {
+        match *self {}
+    }
+
+    fn join(&self, _: impl FnOnce() + Send, _: impl FnOnce() + Send) {
+        match *self {}
+    }
+}
+
+/// Does two things, at the same time where there are threads.
+pub(crate) fn both(pool: Option<&Pool>, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    match pool {
+        Some(pool) => pool.join(one, other),
+        None => {
+            one();
+            other();
+        }
+    }
+}
+
+/// Does some work on the numbers of many bodies, so many of each, halves at the same time where there are threads.
+pub(crate) fn halves<A: Send>(numbers: &mut [A], each: usize, pool: Option<&Pool>, work: &(impl Fn(&mut [A]) + Sync)) {
+    let bodies = numbers.len() / each;
+    if pool.is_none() || bodies <= MANY_BODIES {
+        return work(numbers);
+    }
+    let (one, other) = numbers.split_at_mut(bodies / 2 * each);
+    both(pool, || halves(one, each, pool, work), || halves(other, each, pool, work));
 }

@@ -1,5 +1,7 @@
 //! The world: what goes in, what can be asked.
 
+use std::sync::Arc;
+
 use hyperbody_collision::{DynamicTree, Scratch};
 use hyperbody_geometry::Aabb;
 use hyperbody_geometry::shape::Piece;
@@ -20,7 +22,7 @@ use crate::pairs::{Pair, PairRole, Pairs};
 use crate::rules::Hook;
 use crate::seams::Seams;
 use crate::solver::Solver;
-use crate::threads::Pool;
+use crate::threads::{Pool, pieces};
 use crate::vetting::POSITION_LIMIT;
 use crate::{
     BodyDef, BodyHandle, BodyKind, BodyMut, BodyRef, JointHandle, StageTimings, Tuning, WorldError, WorldErrorKind,
@@ -140,7 +142,7 @@ pub struct World<const N: usize> {
     pub(crate) clock: Option<fn() -> f64>,
     pub(crate) hook: Option<Hook<N>>,
 
-    pub(crate) pool: Option<Pool>,
+    pub(crate) pool: Option<Arc<Pool>>,
     pub(crate) solver: Solver<N>,
     pub(crate) scratch: Vec<Scratch<N>>,
     /// One a thread.
@@ -184,12 +186,13 @@ impl<const N: usize> World<N> {
         }
         def.tuning.validate()?;
         let pool = if def.threads > 1 {
-            Some(Pool::new(def.threads).map_err(|error| {
+            Some(Arc::new(Pool::new(def.threads).map_err(|error| {
                 WorldError::new(WorldErrorKind::NotAllowed, format!("{} threads: {error}", def.threads))
-            })?)
+            })?))
         } else {
             None
         };
+        let pieces = pieces(def.threads);
         Ok(Self {
             gravity: def.gravity,
             dt: def.dt,
@@ -218,9 +221,9 @@ impl<const N: usize> World<N> {
             hook: None,
             pool,
             solver: Solver::new(),
-            scratch: (0..def.threads).map(|_| Scratch::default()).collect(),
-            found: (0..def.threads).map(|_| Found::default()).collect(),
-            integrated: (0..def.threads).map(|_| Integrated::default()).collect(),
+            scratch: (0..pieces).map(|_| Scratch::default()).collect(),
+            found: (0..pieces).map(|_| Found::default()).collect(),
+            integrated: (0..pieces).map(|_| Integrated::default()).collect(),
             near: Near::default(),
             seams: Seams::default(),
             continuous: Continuous::default(),

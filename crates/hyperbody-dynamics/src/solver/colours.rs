@@ -5,16 +5,21 @@
 //! immovable come in colours of their own, after the others: the last word is theirs, and nothing sinks into the ground
 //! (after E. Catto, Box2D v3, 2024). What 64 colours don't hold is solved one by one.
 
+use std::ops::Range;
+
 use hyperbody_collision::MAX_POINTS;
 
+use super::division::Division;
 use super::lanes::WIDTH;
 use crate::counting::Counting;
 use crate::pairs::Surface;
+use crate::threads::{Pool, both};
 
-/// A contact to be solved: slots and rows of its bodies, and what choosing its place asks of them.
+/// A contact to be solved: rows of its bodies, and what choosing its place asks of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ActiveContact {
-    pub(crate) pair: u32,
+    /// Its number in the order of pairs.
+    pub(crate) taken: u32,
     /// Rows of the solver's bodies.
     pub(crate) body_a: u32,
     pub(crate) body_b: u32,
@@ -27,9 +32,10 @@ pub(crate) struct ActiveContact {
 }
 
 impl ActiveContact {
-    /// Rows of the solver's state: row 0, which stays zero, for a body that no impulse moves.
-    pub(crate) fn state_rows(&self) -> [u32; 2] {
-        [if self.moves[0] { self.body_a } else { 0 }, if self.moves[1] { self.body_b } else { 0 }]
+    /// Rows of the solver's state, from `first` on; that one, which stays zero, for a body that no impulse moves.
+    pub(crate) fn state_rows(&self, first: u32) -> [u32; 2] {
+        let row = |body: u32, moves: bool| if moves { body - first } else { 0 };
+        [row(self.body_a, self.moves[0]), row(self.body_b, self.moves[1])]
     }
 
     /// Contacts of one class are solved side by side: those with as many points, and those of balls.
@@ -94,26 +100,50 @@ pub(crate) struct Colours {
 }
 
 impl Colours {
-    /// Groups the contacts.
-    pub(crate) fn assign(&mut self, contacts: &[ActiveContact], body_count: usize) {
+    /// Groups the contacts of consecutive parts and cuts, some at the same time where there are threads. `contacts` are those of
+    /// all, and `first` is the number of the first part.
+    pub(crate) fn assign(
+        colours: &mut [Self],
+        first: usize,
+        contacts: &[ActiveContact],
+        division: &Division,
+        pool: Option<&Pool>,
+    ) {
+        if let [colours] = colours {
+            let range = division.contacts(first);
+            colours.assign_part(&contacts[range.clone()], division.rows(first));
+            return colours.pack(range.start);
+        }
+        let middle = colours.len() / 2;
+        let (one, other) = colours.split_at_mut(middle);
+        both(
+            pool,
+            || Self::assign(one, first, contacts, division, pool),
+            || Self::assign(other, first + middle, contacts, division, pool),
+        );
+    }
+
+    /// Chooses the places of contacts of bodies in these rows.
+    fn assign_part(&mut self, contacts: &[ActiveContact], rows: Range<usize>) {
         self.used.clear();
-        self.used.resize(body_count, 0);
+        self.used.resize(rows.len(), 0);
         self.places.clear();
         self.places.extend(contacts.iter().map(|contact| Place::new(COLOURS, contact)));
-        let first_static = self.colour(contacts, true, 0);
-        let first_static = self.join_rests(contacts, 0, first_static);
-        let end = self.colour(contacts, false, first_static);
-        self.join_rests(contacts, first_static, end);
+        #[expect(clippy::cast_possible_truncation, reason = "bodies are counted in u32")]
+        let first_row = rows.start as u32;
+        let first_static = self.colour(contacts, true, 0, first_row);
+        let first_static = self.join_rests(contacts, 0, first_static, first_row);
+        let end = self.colour(contacts, false, first_static, first_row);
+        self.join_rests(contacts, first_static, end, first_row);
         let places = &self.places;
         self.order.clear();
         #[expect(clippy::cast_possible_truncation, reason = "fewer contacts than fit into memory")]
         self.order.extend(0..contacts.len() as u32);
         self.counting.sort(&mut self.order, Place::COUNT, |contact| usize::from(places[contact as usize].0));
-        self.pack();
     }
 
     /// Colours the contacts whose bodies both move (`both` true) or only one does; returns the colour after the last.
-    fn colour(&mut self, contacts: &[ActiveContact], both: bool, first: usize) -> usize {
+    fn colour(&mut self, contacts: &[ActiveContact], both: bool, first: usize, first_row: u32) -> usize {
         let mut next = first;
         for (index, contact) in contacts.iter().enumerate() {
             let [a, b] = contact.moves;
@@ -121,21 +151,22 @@ impl Colours {
                 continue;
             }
             let mut taken = (1_u64 << first) - 1;
+            let [row_a, row_b] = contact.state_rows(first_row).map(|row| row as usize);
             if a {
-                taken |= self.used[contact.body_a as usize];
+                taken |= self.used[row_a];
             }
             if b {
-                taken |= self.used[contact.body_b as usize];
+                taken |= self.used[row_b];
             }
             let colour = taken.trailing_ones() as usize;
             if colour + 1 >= COLOURS {
                 continue;
             }
             if a {
-                self.used[contact.body_a as usize] |= 1 << colour;
+                self.used[row_a] |= 1 << colour;
             }
             if b {
-                self.used[contact.body_b as usize] |= 1 << colour;
+                self.used[row_b] |= 1 << colour;
             }
             self.places[index] = Place::new(colour, contact);
             next = next.max(colour + 1);
@@ -145,7 +176,7 @@ impl Colours {
 
     /// Of each colour from `first` to before `end`, what does not fill a group is put into new colours after them, if that makes
     /// fewer groups: a half-empty one takes as long as a full one. Returns the colour after the last.
-    fn join_rests(&mut self, contacts: &[ActiveContact], first: usize, end: usize) -> usize {
+    fn join_rests(&mut self, contacts: &[ActiveContact], first: usize, end: usize, first_row: u32) -> usize {
         if contacts.len() > FEW || end < first + 2 || end + 2 >= COLOURS {
             return end;
         }
@@ -171,7 +202,7 @@ impl Colours {
         let mut counts = [0; COLOURS];
         let mut chosen = [COLOURS; COLOURS * WIDTH];
         for (&index, chosen) in self.rest.iter().zip(&mut chosen) {
-            let rows = contacts[index as usize].state_rows().map(|row| row as usize);
+            let rows = contacts[index as usize].state_rows(first_row).map(|row| row as usize);
             let taken = rows.iter().fold((1_u64 << end) - 1, |taken, &row| taken | self.used[row]);
             let colour = taken.trailing_ones() as usize;
             if colour + 1 < COLOURS {
@@ -189,14 +220,17 @@ impl Colours {
             return counts.iter().rposition(|&count| count > 0).map_or(end, |last| last + 1);
         }
         for &index in &self.rest {
-            for row in contacts[index as usize].state_rows() {
+            for row in contacts[index as usize].state_rows(first_row) {
                 self.used[row as usize] &= (1 << end) - 1;
             }
         }
         end
     }
 
-    fn pack(&mut self) {
+    /// Makes groups of the contacts in order; the first of them all is `first`.
+    fn pack(&mut self, first: usize) {
+        #[expect(clippy::cast_possible_truncation, reason = "fewer contacts than fit into memory")]
+        let first = first as u32;
         self.groups.clear();
         self.ends.clear();
         let mut lane = WIDTH;
@@ -213,7 +247,7 @@ impl Colours {
                 current = kind;
             }
             if let Some(group) = self.groups.last_mut() {
-                group.contacts[lane] = contact;
+                group.contacts[lane] = contact + first;
             }
             lane += 1;
         }
@@ -230,13 +264,14 @@ mod tests {
     fn contact(body_a: u32, body_b: u32) -> ActiveContact {
         let surface = Surface { bounces: false, resists: false };
         let moves = [body_a != 0, body_b != 0];
-        ActiveContact { pair: 0, body_a, body_b, moves, surface, points: 4, round: false }
+        ActiveContact { taken: 0, body_a, body_b, moves, surface, points: 4, round: false }
     }
 
     /// Groups, after checking that each contact is in one and that no colour touches a body twice.
     fn groups(contacts: &[ActiveContact], bodies: usize) -> usize {
         let mut colours = Colours::default();
-        colours.assign(contacts, bodies);
+        colours.assign_part(contacts, 0..bodies);
+        colours.pack(0);
         let mut seen = vec![0; contacts.len()];
         let mut first = 0;
         for &end in &colours.ends {
@@ -245,7 +280,7 @@ mod tests {
             for index in members.filter(|&index| index != Group::EMPTY) {
                 seen[index as usize] += 1;
                 for row in
-                    contacts[index as usize].state_rows().map(|row| row as usize).into_iter().filter(|&row| row != 0)
+                    contacts[index as usize].state_rows(0).map(|row| row as usize).into_iter().filter(|&row| row != 0)
                 {
                     assert!(!touched[row], "body {row} twice in one colour");
                     touched[row] = true;

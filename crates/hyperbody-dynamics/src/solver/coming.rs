@@ -1,16 +1,15 @@
 //! What the next blocks of contacts are about to ask memory for; see [`crate::ahead`].
 //!
-//! A contact is three steps away from its block: its pair's slot, what the pair remembers, its points. Each is asked for a block
-//! sooner than the next.
+//! A contact and its bodies are one step away from the block, its points two: those are asked for a block later.
 
 use std::mem::offset_of;
 
 use super::bodies::SolverBody;
 use super::colours::ActiveContact;
-use super::contacts::{Block, Layout};
+use super::contacts::{Block, Held, Layout};
 use super::lanes::Lanes;
 use crate::ahead::{IS_HEARD, fetch, fetch_all};
-use crate::pairs::{Contact, Pairs};
+use crate::pairs::Contact;
 
 /// What a pass over all blocks comes for.
 #[derive(Clone, Copy)]
@@ -33,35 +32,37 @@ pub(super) struct Coming<'a, const N: usize> {
 impl<const N: usize> Coming<'_, N> {
     /// Asks for what the blocks after the one at `index` work on.
     #[inline(always)]
-    pub(super) fn fetch(&self, index: usize, pairs: &Pairs<N>) {
+    pub(super) fn fetch(&self, index: usize, held: &[Held<N>]) {
         if !IS_HEARD {
             return;
         }
-        if let Some(block) = self.blocks.get(index + 3) {
-            self.contacts(block).for_each(|active| fetch(&pairs.slots()[active.pair as usize], usize::MAX));
-        }
         // How much it is stands in the calls, so that each becomes as many hints and no loop.
-        if let Some(block) = self.blocks.get(index + 2) {
+        if let (Some(block), Some(held)) = (self.blocks.get(index + 2), held.get(index + 2)) {
             if block.round {
-                self.contacts(block).for_each(|active| self.fetch_of_balls(active, pairs));
+                held.contacts
+                    .iter()
+                    .flatten()
+                    .for_each(|contact| fetch(&**contact, offset_of!(Contact<N>, normal_in_a)));
+                self.contacts(block).for_each(|active| self.fetch_balls(active));
             } else {
-                self.contacts(block).for_each(|active| self.fetch_of_others(active, pairs));
+                held.contacts
+                    .iter()
+                    .flatten()
+                    .for_each(|contact| fetch(&**contact, offset_of!(Contact<N>, resistance)));
+                self.contacts(block).for_each(|active| self.fetch_others(active));
             }
         }
-        if let Some(block) = self.blocks.get(index + 1).filter(|block| !block.round) {
-            for contact in self.contacts(block).filter_map(|active| contact_of(active, pairs)) {
-                fetch_all(&contact.touches);
-            }
+        if let (Some(block), Some(held)) = (self.blocks.get(index + 1), held.get(index + 1))
+            && !block.round
+        {
+            held.contacts.iter().flatten().for_each(|contact| fetch_all(&contact.touches));
         }
     }
 
     // Contacts and bodies keep in front what rows of balls are made of, of moments the first, and at the end what few rows are.
 
     #[inline(always)]
-    fn fetch_of_balls(&self, active: &ActiveContact, pairs: &Pairs<N>) {
-        if let Some(contact) = contact_of(active, pairs) {
-            fetch(contact, offset_of!(Contact<N>, normal_in_a));
-        }
+    fn fetch_balls(&self, active: &ActiveContact) {
         for body in self.bodies_of(active) {
             match self.errand {
                 Errand::Fill => fetch(body, offset_of!(SolverBody<N>, inverse_sqrt_moments) + size_of::<f64>()),
@@ -71,10 +72,7 @@ impl<const N: usize> Coming<'_, N> {
     }
 
     #[inline(always)]
-    fn fetch_of_others(&self, active: &ActiveContact, pairs: &Pairs<N>) {
-        if let Some(contact) = contact_of(active, pairs) {
-            fetch(contact, offset_of!(Contact<N>, resistance));
-        }
+    fn fetch_others(&self, active: &ActiveContact) {
         for body in self.bodies_of(active) {
             match self.errand {
                 Errand::Fill => fetch(body, offset_of!(SolverBody<N>, surface)),
@@ -90,7 +88,7 @@ impl<const N: usize> Coming<'_, N> {
     #[inline]
     pub(super) fn fetch_rows(&self, index: usize, rows: &[Lanes]) {
         let Some(block) = self.blocks.get(index + 2) else { return };
-        fetch_all(&rows[block.start..block.start + Layout::<N>::block_len(block)]);
+        fetch_all(&rows[block.start - self.blocks[0].start..][..Layout::<N>::block_len(block)]);
     }
 
     /// The contacts of a block.
@@ -104,9 +102,4 @@ impl<const N: usize> Coming<'_, N> {
     fn bodies_of(&self, active: &ActiveContact) -> [&SolverBody<N>; 2] {
         [active.body_a, active.body_b].map(|body| &self.bodies[body as usize])
     }
-}
-
-#[inline(always)]
-fn contact_of<'a, const N: usize>(active: &ActiveContact, pairs: &'a Pairs<N>) -> Option<&'a Contact<N>> {
-    pairs.get(active.pair)?.contact.as_deref()
 }

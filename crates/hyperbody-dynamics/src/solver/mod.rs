@@ -8,8 +8,11 @@
 //! | file | holds |
 //! |---|---|
 //! | `bodies` | the scaled velocities that rows work on |
+//! | `collect` | what of the world is solved, and its return |
 //! | `colours` | which contacts are solved side by side |
 //! | `contacts` | contact rows and the passes over them |
+//! | `division` | which parts of a large world are solved at the same time |
+//! | `manifolds` | rows made of contacts, and impulses stored in them |
 //! | `pressed` | what contacts have done to each body, for warm starts |
 //! | `joints` | joint rows |
 //! | `turning` | gaps of bodies that turn far within the step |
@@ -19,13 +22,16 @@
 //! | `part`, `vectors` | as many contacts as a register holds in double precision; vectors of them |
 
 pub(crate) mod bodies;
+mod collect;
 mod colours;
 mod coming;
 mod contacts;
+mod division;
 pub(crate) mod gyro;
 mod joints;
 mod lanes;
 mod machine;
+mod manifolds;
 mod part;
 mod pressed;
 mod softness;
@@ -33,27 +39,27 @@ mod turning;
 mod vectors;
 mod wide;
 
+use std::sync::Mutex;
+
 use hyperbody_math::Vector;
 
-use crate::BodyKind;
 use crate::body::Body;
 use crate::handle::Arena;
 use crate::joint::Joint;
-use crate::pairs::{Contact, Meeting, Pairs};
-use crate::threads::Pool;
-use crate::vetting::shortened;
+use crate::pairs::Pairs;
+use crate::threads::{Pool, halves};
 use crate::{BodyHandle, JointHandle, Tuning};
 use bodies::{Sizes, SolverBody};
-use colours::{ActiveContact, Colours, Group};
-use coming::{Coming, Errand};
-use contacts::{Block, Bounce, ContactRows, Gathered, Layout, PassTimes, Prepare, Springs, Sweep, WarmStart};
+use collect::{Collected, Seat, Taken};
+use colours::{ActiveContact, Colours};
+use contacts::{Bounce, ContactRows, PassTimes, Sweep, WarmStart};
+use division::{Division, Stretch};
 use gyro::Gyro;
 use joints::{Joints, Moment, Moving, Pass, Tension};
 use lanes::Lanes;
 pub(crate) use lanes::Real;
 use machine::Processor;
 use pressed::Pressed;
-use softness::Softness;
 use turning::Turning;
 
 /// Buffers of the solver, kept from step to step so that a settled step allocates nothing.
@@ -64,9 +70,20 @@ pub(crate) struct Solver<const N: usize> {
     pub(crate) state: Vec<Real>,
     pub(crate) gyros: Vec<Gyro<N>>,
     damped: Vec<Damped>,
+    /// Room for collecting the bodies of each part.
+    collected: Vec<Collected<N>>,
+    /// Rows of each part.
+    counts: Vec<usize>,
+    /// By slot of the body.
+    seats: Vec<Option<Seat>>,
+    taken: Vec<Taken<N>>,
     active: Vec<ActiveContact>,
-    colours: Colours,
-    contacts: ContactRows,
+    division: Division,
+    /// Of each part and cut.
+    colours: Vec<Colours>,
+    /// Room for states that threads put aside.
+    aside: Mutex<Vec<Lanes>>,
+    contacts: ContactRows<N>,
     joints: Joints<N>,
     tension: Tension,
     turning: Turning<N>,
@@ -102,8 +119,14 @@ impl<const N: usize> Solver<N> {
             state: Vec::new(),
             gyros: Vec::new(),
             damped: Vec::new(),
+            collected: Vec::new(),
+            counts: Vec::new(),
+            seats: Vec::new(),
+            taken: Vec::new(),
             active: Vec::new(),
-            colours: Colours::default(),
+            division: Division::default(),
+            colours: Vec::new(),
+            aside: Mutex::default(),
             contacts: ContactRows::default(),
             joints: Joints::default(),
             tension: Tension::default(),
@@ -117,112 +140,14 @@ impl<const N: usize> Solver<N> {
     pub(crate) fn solve(&mut self, input: &mut SolverInput<'_, N>) {
         let h = input.dt / f64::from(input.substeps);
         self.collect_bodies(input, h);
-        self.collect_contacts(input);
-        self.make_rows(input, h);
+        self.collect_contacts(input.pairs, input.pool);
+        self.make_rows(input.tuning, h, input.pool);
         self.joints.collect(input, &self.bodies, &self.gyros, h);
         self.joints.jointed_gyros().for_each(|gyro| self.gyros[gyro].keep_up());
         self.run_substeps(input, h);
-        self.store_impulses(input);
-    }
-
-    fn collect_bodies(&mut self, input: &mut SolverInput<'_, N>, h: f64) {
-        self.bodies.clear();
-        // Row 0 belongs to no one: whoever is not moved by impulses points at it.
-        self.bodies.push(SolverBody::RESTING);
-        self.gyros.clear();
-        self.damped.clear();
-        self.tension.find(input.joints, input.bodies.slot_count(), h);
-        for slot in 0..input.bodies.slot_count() {
-            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-            let slot = slot as u32;
-            let Some(body) = input.bodies.at_mut(slot) else { continue };
-            body.solver_index = 0;
-            if !body.is_moving() {
-                let runs = body.surface_velocity != Vector::ZERO && body.kind == BodyKind::Static;
-                if (body.kind == BodyKind::Kinematic || runs) && !body.quarantined {
-                    self.push_body(body, SolverBody::immovable);
-                }
-                continue;
-            }
-            let added_moment = self.tension.added(slot, body.inertia.smallest_plane_moment());
-            self.push_body(body, |body| SolverBody::dynamic(slot, body, input.gravity, added_moment));
-            let row = self.bodies.len() - 1;
-            let steepest = input.tuning.max_speed / input.dt;
-            self.bodies[row].acceleration = shortened(self.bodies[row].acceleration, steepest);
-            if let Some(frame) = self.bodies[row].frame {
-                let inertia = &body.inertia;
-                self.gyros.push(Gyro::new(row, frame, inertia.moments, body, added_moment, input.dt));
-            }
-            if body.linear_damping > 0.0 || body.angular_damping > 0.0 {
-                let factor = |rate: f64| 1.0 / (1.0 + h * rate);
-                let (linear, angular) = (factor(body.linear_damping), factor(body.angular_damping));
-                self.damped.push(Damped { body: row, linear, angular });
-            }
-        }
-        self.state.clear();
-        self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
-    }
-
-    fn push_body(&mut self, body: &mut Body<N>, make: impl Fn(&Body<N>) -> SolverBody<N>) {
-        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
-        let row = self.bodies.len() as u32;
-        body.solver_index = row;
-        self.bodies.push(make(body));
-    }
-
-    /// Pairs with points and at least one body that impulses move, in the order of their slots.
-    fn collect_contacts(&mut self, input: &SolverInput<'_, N>) {
-        self.active.clear();
-        for (slot, pair) in input.pairs.contacts() {
-            let (Some(a), Some(b)) = (input.bodies.at(pair.body_a), input.bodies.at(pair.body_b)) else { continue };
-            let moves = [a.is_moving(), b.is_moving()];
-            if moves != [false; 2] {
-                self.active.push(ActiveContact {
-                    pair: slot,
-                    body_a: a.solver_index,
-                    body_b: b.solver_index,
-                    moves,
-                    surface: pair.surface(),
-                    points: pair.points,
-                    round: pair.points == 1 && !pair.resists && (a.is_ball || !moves[0]) && (b.is_ball || !moves[1]),
-                });
-            }
-        }
-        self.colours.assign(&self.active, self.bodies.len());
-    }
-
-    fn make_rows(&mut self, input: &SolverInput<'_, N>, h: f64) {
-        let tuning = input.tuning;
-        self.contacts.allocate::<N>(&self.colours.groups, &self.active);
-        let springs = Springs {
-            soft: Softness::new(tuning.contact_hz, tuning.contact_damping_ratio, h),
-            stiff: Softness::new(2.0 * tuning.contact_hz, tuning.contact_damping_ratio, h),
-        };
-        let (bodies, active, pairs) = (&self.bodies, &self.active, &*input.pairs);
-        let processor = self.processor;
-        let nothing = Contact::NONE;
-        let fill = |block: &Block, rows: &mut [Lanes], gathered: &mut Gathered<N>| {
-            gathered.start();
-            for (lane, &index) in block.contacts.iter().enumerate() {
-                // No index is that of an empty lane.
-                let found = active.get(index as usize).and_then(|active| {
-                    let contact = pairs.get(active.pair)?.contact.as_deref()?;
-                    Some((contact, (&bodies[active.body_a as usize], &bodies[active.body_b as usize])))
-                });
-                let (contact, sides) = found.unwrap_or((&nothing, (&bodies[0], &bodies[0])));
-                gathered.fill(block, lane, contact, sides);
-            }
-            processor.run(Prepare { block, rows, gathered, springs: &springs });
-        };
-        let coming = |blocks: &[Block], index: usize| {
-            let coming = Coming { blocks, active, bodies, errand: Errand::Fill };
-            coming.fetch(index, pairs);
-        };
-        let (blocks, rows) = (self.contacts.blocks.as_slice(), self.contacts.rows.as_mut_slice());
-        match input.pool {
-            Some(pool) => pool.install(|| fill_blocks(blocks, rows, &fill, &coming)),
-            None => fill_in_turn(blocks, rows, &fill, &coming),
-        }
+        self.store_impulses(input.pool);
+        self.give_back_contacts(input.pairs);
+        self.joints.store(input.joints, h);
     }
 
     fn run_substeps(&mut self, input: &SolverInput<'_, N>, h: f64) {
@@ -237,32 +162,37 @@ impl<const N: usize> Solver<N> {
             self.joints.kick(h);
             self.warm_start_joints(Pass::Move, h);
             if substep == 0 {
-                let contacts = &mut self.contacts;
-                let pass = |state: &mut [Real]| processor.run(WarmStart::<N> { contacts, state });
-                self.pressed.watch::<N>(processor, &mut self.state, pass);
+                let (contacts, division) = (&mut self.contacts, &self.division);
+                let start = |_, contacts: Stretch<'_, N>| processor.run(WarmStart::<N> { contacts });
+                let pass = |state: &mut [Real]| division.each::<N>(contacts.whole(state), input.pool, &start);
+                self.pressed.watch::<N>(processor, &mut self.state, input.pool, pass);
             } else {
-                self.pressed.warm_start::<N>(processor, &mut self.state);
+                self.pressed.warm_start::<N>(processor, &mut self.state, input.pool);
             }
             self.solve_joints(Pass::Move, substep, h);
             self.solve_contacts(&times, input.pool);
-            self.move_bodies(h, h * f64::from(substep + 1));
+            self.move_bodies(h, h * f64::from(substep + 1), input.pool);
             times = PassTimes { push: false, ..after_move(times, substep, h) };
             let rows = (&mut self.contacts, self.active.as_slice());
-            self.turning.refresh(&self.bodies, &self.state, &times, rows, input.pairs);
+            self.turning.refresh(&self.bodies, &self.state, &times, rows);
             self.refresh_joints(&Moment::new(substep + 1, substep + 1, h));
             self.warm_start_joints(Pass::Settle, h);
             self.solve_joints(Pass::Settle, substep, h);
             self.solve_contacts(&times, input.pool);
             if substep + 1 == input.substeps {
-                processor.run(Bounce::<N> { contacts: &mut self.contacts, state: &mut self.state, times: &times });
+                let bounce = |_, contacts: Stretch<'_, N>| processor.run(Bounce::<N> { contacts, times: &times });
+                self.division.each::<N>(self.contacts.whole(&mut self.state), input.pool, &bounce);
             }
         }
     }
 
     fn solve_contacts(&mut self, times: &PassTimes, pool: Option<&Pool>) {
-        let sweep = Sweep { processor: self.processor, times };
-        let (contacts, ends) = (&mut self.contacts, self.colours.ends.as_slice());
-        self.pressed.watch::<N>(self.processor, &mut self.state, |state| sweep.run::<N>(contacts, ends, state, pool));
+        let division = &self.division;
+        let ends = self.colours[division.root()].ends.as_slice();
+        let sweep = Sweep { processor: self.processor, times, division, ends, aside: &self.aside };
+        let contacts = &mut self.contacts;
+        let pass = |state: &mut [Real]| sweep.run::<N>(contacts.whole(state), pool);
+        self.pressed.watch::<N>(self.processor, &mut self.state, pool, pass);
     }
 
     fn refresh_joints(&mut self, moment: &Moment) {
@@ -309,14 +239,16 @@ impl<const N: usize> Solver<N> {
     }
 
     /// Displaces all bodies by their changes of velocity, and turns anisotropic ones.
-    fn move_bodies(&mut self, h: f64, elapsed: f64) {
+    fn move_bodies(&mut self, h: f64, elapsed: f64, pool: Option<&Pool>) {
         let step = h as Real;
-        for row in self.state.chunks_exact_mut(Sizes::<N>::STATE) {
-            let (velocity, displacement) = row.split_at_mut(Sizes::<N>::VELOCITY);
-            for (d, v) in displacement.iter_mut().zip(velocity) {
-                *d += step * *v;
+        halves(&mut self.state, Sizes::<N>::STATE, pool, &|state| {
+            for row in state.chunks_exact_mut(Sizes::<N>::STATE) {
+                let (velocity, displacement) = row.split_at_mut(Sizes::<N>::VELOCITY);
+                for (d, v) in displacement.iter_mut().zip(velocity) {
+                    *d += step * *v;
+                }
             }
-        }
+        });
         for gyro in &mut self.gyros {
             gyro.turn(&self.bodies[gyro.body], &mut self.state, h, elapsed);
         }
@@ -325,85 +257,6 @@ impl<const N: usize> Solver<N> {
     /// Slots of bodies that joints were moving at the end of the step, however slowly.
     pub(crate) fn creeping(&self) -> &[u32] {
         self.joints.creeping()
-    }
-
-    /// Impulses to start the next step from; and from the spins what contacts added to the angular momentum.
-    fn store_impulses(&mut self, input: &mut SolverInput<'_, N>) {
-        let blocks = self.contacts.blocks.as_slice();
-        let coming = Coming { blocks, active: &self.active, bodies: &self.bodies, errand: Errand::Store };
-        for (index, block) in self.contacts.blocks.iter().enumerate() {
-            coming.fetch(index, input.pairs);
-            coming.fetch_rows(index, &self.contacts.rows);
-            let rows = &self.contacts.rows[block.start..block.start + Layout::<N>::block_len(block)];
-            for (lane, &index) in block.contacts.iter().enumerate() {
-                if index == Group::EMPTY {
-                    continue;
-                }
-                let pair = input.pairs.get_mut(self.active[index as usize].pair);
-                if let Some(pair) = pair
-                    && let Some(contact) = pair.contact.as_deref_mut()
-                {
-                    contacts::store(block, rows, lane, contact);
-                    let meeting = Meeting::of(contact);
-                    // Written where it changes: of most pairs a step only reads.
-                    if pair.meeting != meeting {
-                        pair.meeting = meeting;
-                    }
-                    let (a, b) = (block.bodies_a[lane] as usize, block.bodies_b[lane] as usize);
-                    if a != 0 && b != 0 {
-                        let excess = contacts::excess::<N>(block, rows, lane);
-                        let share = contact.share_of_b;
-                        for (body, share) in [(a, share - 1.0), (b, -share)] {
-                            let spin = &mut self.state[body * Sizes::<N>::STATE + N..];
-                            if block.round {
-                                self.bodies[body].add_spin_of_ball(spin, &excess, share);
-                            } else {
-                                self.bodies[body].add_spin(spin, &excess, share);
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        self.joints.store(input.joints, input.dt / f64::from(input.substeps));
-    }
-}
-
-/// Blocks below which another thread is not worth its while.
-const FEW_BLOCKS: usize = 16;
-
-/// Fills the rows of consecutive blocks, halves of them side by side.
-fn fill_blocks<const N: usize>(
-    blocks: &[Block],
-    rows: &mut [Lanes],
-    fill: &(impl Fn(&Block, &mut [Lanes], &mut Gathered<N>) + Sync),
-    coming: &(impl Fn(&[Block], usize) + Sync),
-) {
-    if blocks.len() <= FEW_BLOCKS {
-        fill_in_turn(blocks, rows, fill, coming);
-        return;
-    }
-    let (first, second) = blocks.split_at(blocks.len() / 2);
-    let (rows_of_first, rows_of_second) = rows.split_at_mut(second[0].start - first[0].start);
-    rayon::join(
-        || fill_blocks(first, rows_of_first, fill, coming),
-        || fill_blocks(second, rows_of_second, fill, coming),
-    );
-}
-
-fn fill_in_turn<const N: usize>(
-    blocks: &[Block],
-    rows: &mut [Lanes],
-    fill: &impl Fn(&Block, &mut [Lanes], &mut Gathered<N>),
-    coming: &impl Fn(&[Block], usize),
-) {
-    let mut gathered = Gathered::ZERO;
-    let start = blocks.first().map_or(0, |block| block.start);
-    for (index, block) in blocks.iter().enumerate() {
-        let end = blocks.get(index + 1).map_or(start + rows.len(), |next| next.start);
-        let rows = &mut rows[block.start - start..end - start];
-        coming(blocks, index);
-        fill(block, rows, &mut gathered);
     }
 }
 

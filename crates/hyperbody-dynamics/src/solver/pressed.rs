@@ -9,6 +9,7 @@
 use super::bodies::Sizes;
 use super::lanes::{Lanes, Real, WIDTH};
 use super::machine::{Machine, Pass, Processor};
+use crate::threads::{MANY_BODIES, Pool, both};
 
 /// Sums by body, and room for one pass: [`vectors`] of each.
 #[derive(Clone, Debug, Default)]
@@ -35,39 +36,81 @@ impl Pressed {
         &mut self,
         processor: Processor,
         state: &mut [Real],
+        pool: Option<&Pool>,
         pass: impl FnOnce(&mut [Real]),
     ) {
-        let (bodies, _) = state.as_chunks::<WIDTH>();
-        let bodies = bodies.chunks_exact(Sizes::<N>::STATE / WIDTH);
-        for (body, before) in bodies.zip(self.before.chunks_exact_mut(vectors::<N>())) {
-            for (now, before) in body.iter().zip(before) {
-                before.0 = *now;
-            }
-        }
+        self.rows(state).halves::<N>(pool, &|rows| processor.run(Keep::<N>(rows)));
         pass(state);
-        processor.run(Add::<N> { state, before: &self.before, sum: &mut self.sum });
+        self.rows(state).halves::<N>(pool, &|rows| processor.run(Add::<N>(rows)));
     }
 
     /// Does to every body once more what contacts have done to it.
-    pub(crate) fn warm_start<const N: usize>(&self, processor: Processor, state: &mut [Real]) {
-        processor.run(Repeat::<N> { state, sum: &self.sum });
+    pub(crate) fn warm_start<const N: usize>(&mut self, processor: Processor, state: &mut [Real], pool: Option<&Pool>) {
+        self.rows(state).halves::<N>(pool, &|rows| processor.run(Repeat::<N>(rows)));
+    }
+
+    fn rows<'a>(&'a mut self, state: &'a mut [Real]) -> Rows<'a> {
+        Rows { state, before: &mut self.before, sum: &mut self.sum }
     }
 }
 
-/// Adds what changed since `before`.
-struct Add<'a, const N: usize> {
-    state: &'a [Real],
-    before: &'a [Lanes],
+/// What is kept of a body: its velocity before a pass, and the sum.
+type Kept<'a> = (&'a mut [Lanes], &'a mut [Lanes]);
+
+/// Consecutive bodies.
+struct Rows<'a> {
+    state: &'a mut [Real],
+    before: &'a mut [Lanes],
     sum: &'a mut [Lanes],
 }
 
+impl Rows<'_> {
+    /// Does some work on all of them, halves at the same time where there are threads.
+    fn halves<const N: usize>(self, pool: Option<&Pool>, work: &(impl Fn(Rows<'_>) + Sync)) {
+        let Rows { state, before, sum } = self;
+        let bodies = state.len() / Sizes::<N>::STATE;
+        if pool.is_none() || bodies <= MANY_BODIES {
+            return work(Rows { state, before, sum });
+        }
+        let middle = bodies / 2;
+        let (state, other_state) = state.split_at_mut(middle * Sizes::<N>::STATE);
+        let (before, other_before) = before.split_at_mut(middle * vectors::<N>());
+        let (sum, other_sum) = sum.split_at_mut(middle * vectors::<N>());
+        let (one, other) =
+            (Rows { state, before, sum }, Rows { state: other_state, before: other_before, sum: other_sum });
+        both(pool, || one.halves::<N>(pool, work), || other.halves::<N>(pool, work));
+    }
+
+    /// The vectors of each body's state, and what is kept of those that hold its velocity.
+    #[inline(always)]
+    fn bodies<const N: usize>(&mut self) -> impl Iterator<Item = (&mut [[Real; WIDTH]], Kept<'_>)> {
+        let (bodies, _) = self.state.as_chunks_mut::<WIDTH>();
+        let kept = self.before.chunks_exact_mut(vectors::<N>()).zip(self.sum.chunks_exact_mut(vectors::<N>()));
+        bodies.chunks_exact_mut(Sizes::<N>::STATE / WIDTH).zip(kept)
+    }
+}
+
+/// Keeps velocities as they are.
+struct Keep<'a, const N: usize>(Rows<'a>);
+
+impl<const N: usize> Pass for Keep<'_, N> {
+    #[inline(always)]
+    fn run<M: Machine>(mut self, _: M) {
+        for (body, (before, _)) in self.0.bodies::<N>() {
+            for at in 0..vectors::<N>() {
+                before[at].0 = body[at];
+            }
+        }
+    }
+}
+
+/// Adds what changed since then.
+struct Add<'a, const N: usize>(Rows<'a>);
+
 impl<const N: usize> Pass for Add<'_, N> {
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) {
-        let (bodies, _) = self.state.as_chunks::<WIDTH>();
-        let bodies = bodies.chunks_exact(Sizes::<N>::STATE / WIDTH);
-        let kept = self.before.chunks_exact(vectors::<N>()).zip(self.sum.chunks_exact_mut(vectors::<N>()));
-        for (body, (before, sum)) in bodies.zip(kept) {
+    fn run<M: Machine>(mut self, machine: M) {
+        for (body, (before, sum)) in self.0.bodies::<N>() {
             for at in 0..vectors::<N>() {
                 let change = Lanes(body[at]).on(machine) - before[at];
                 sum[at] = (change + sum[at]).lanes();
@@ -77,17 +120,12 @@ impl<const N: usize> Pass for Add<'_, N> {
 }
 
 /// Adds sums to the state.
-struct Repeat<'a, const N: usize> {
-    state: &'a mut [Real],
-    sum: &'a [Lanes],
-}
+struct Repeat<'a, const N: usize>(Rows<'a>);
 
 impl<const N: usize> Pass for Repeat<'_, N> {
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) {
-        let (bodies, _) = self.state.as_chunks_mut::<WIDTH>();
-        let bodies = bodies.chunks_exact_mut(Sizes::<N>::STATE / WIDTH);
-        for (body, sum) in bodies.zip(self.sum.chunks_exact(vectors::<N>())) {
+    fn run<M: Machine>(mut self, machine: M) {
+        for (body, (_, sum)) in self.0.bodies::<N>() {
             for at in 0..vectors::<N>() {
                 body[at] = (Lanes(body[at]).on(machine) + sum[at]).lanes().0;
             }

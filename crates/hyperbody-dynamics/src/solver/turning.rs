@@ -11,7 +11,7 @@ use super::bodies::{Sizes, SolverBody};
 use super::colours::{ActiveContact, Group};
 use super::contacts::{ContactRows, Layout, PassTimes};
 use super::lanes::Real;
-use crate::pairs::{Pairs, Touch};
+use crate::pairs::Touch;
 
 /// Turn from which the arc is told from its tangent, rad: a millimetre and a quarter at an arm of a metre.
 const FAR: f64 = 0.05;
@@ -71,21 +71,20 @@ impl<const N: usize> Turning<N> {
         bodies: &[SolverBody<N>],
         state: &[Real],
         times: &PassTimes,
-        (contacts, active): (&mut ContactRows, &[ActiveContact]),
-        pairs: &Pairs<N>,
+        (contacts, active): (&mut ContactRows<N>, &[ActiveContact]),
     ) {
         self.find(bodies, state, times);
         if self.turns.is_empty() {
             return;
         }
-        for block in &contacts.blocks {
+        for (block, held) in contacts.blocks.iter().zip(&contacts.held) {
             for (lane, &index) in block.contacts.iter().enumerate().filter(|(_, index)| **index != Group::EMPTY) {
                 let contact = &active[index as usize];
                 let (a, b) = (contact.body_a as usize, contact.body_b as usize);
                 if self.place[a] == NONE && self.place[b] == NONE {
                     continue;
                 }
-                let Some(held) = pairs.get(contact.pair).and_then(|pair| pair.contact.as_deref()) else { continue };
+                let Some(held) = &held.contacts[lane] else { continue };
                 let normal = held.normal;
                 for (Touch { point, .. }, k) in held.touches.iter().zip(0..) {
                     // Round surfaces roll over their contact; what turns with the body is the core below.

@@ -259,6 +259,89 @@ fn threads_do_not_change_a_bit_of_a_large_pile() {
     }
 }
 
+/// A brick wall of so many bodies that the solver divides them, of several kinds, with joints and gaps across the
+/// cuts.
+fn divided_world(threads: usize) -> World<3> {
+    let mut world = World::<3>::new(WorldDef { threads, ..WorldDef::default() }).unwrap();
+    let belt = BodyDef::fixed(Shape::half_space(Vector::unit(1), 0.0).unwrap());
+    world.add_body(belt.surface_velocity(Vector([0.5, 0.0, 0.2])).material(material(0.5, 0.2))).unwrap();
+    let mut bodies = Vec::new();
+    for k in 0..6200_u32 {
+        let (layer, column) = (k / 310, k % 310);
+        let position = Vector([f64::from(column) * 1.01, 0.5 + f64::from(layer), 0.3 * f64::from(k % 3)]);
+        let shape = match k % 4 {
+            0 => ball(0.5),
+            1 => cuboid(Vector([0.5, 0.5, 0.8])),
+            _ => cuboid(Vector::splat(0.5)),
+        };
+        let def = BodyDef::new(shape).position(position).linear_damping(f64::from(k % 5) * 0.1);
+        bodies.push(world.add_body(def).unwrap());
+    }
+    for k in (0..6000).step_by(500) {
+        let (a, b) = (bodies[k], bodies[(k * 7 + 1700) % 6200]);
+        world.add_joint(JointDef::rope(a, b, Vector::ZERO, Vector::ZERO, 50.0)).unwrap();
+    }
+    bodies.iter().skip(5).step_by(41).for_each(|&body| world.remove_body(body).unwrap());
+    world
+}
+
+/// Threads solve the parts of a large world at the same time, to the same bits; and a snapshot of it goes on as it did.
+#[test]
+fn threads_do_not_change_a_bit_of_a_divided_world() {
+    let steps = 8;
+    let hashes = |world: &mut World<3>| -> Vec<u64> {
+        let mut step = || {
+            world.step();
+            world.state_hash()
+        };
+        (0..steps).map(|_| step()).collect()
+    };
+    let mut one = divided_world(1);
+    let (first, snapshot) = (hashes(&mut one), one.snapshot());
+    let second = hashes(&mut one);
+    for threads in [2, 3] {
+        let mut world = divided_world(threads);
+        assert_eq!(first, hashes(&mut world), "{threads} threads");
+        assert_eq!(second, hashes(&mut world), "{threads} threads, later");
+        world.restore(&snapshot);
+        assert_eq!(second, hashes(&mut world), "{threads} threads, once more");
+    }
+}
+
+/// Contacts across cuts push both sides alike.
+#[test]
+fn a_divided_world_keeps_its_momentum() {
+    let def = WorldDef { gravity: Vector::ZERO, threads: 2, ..WorldDef::default() };
+    let mut world = World::<3>::new(def).unwrap();
+    let mut random = Random(5);
+    for k in 0..3200_u32 {
+        let place = Vector([f64::from(k % 20), f64::from(k / 20 % 20), f64::from(k / 400)]) * 1.1;
+        let velocity = random.vector::<3>(1.0) - place * 0.3;
+        let shape = if k % 2 == 0 { ball(0.5) } else { cuboid(Vector([0.5, 0.4, 0.5])) };
+        world.add_body(BodyDef::new(shape).mass(1.0).position(place).velocity(velocity)).unwrap();
+    }
+    let momenta = |world: &World<3>| {
+        let (mut linear, mut angular) = (Vector::ZERO, Bivector::ZERO);
+        for (_, body) in world.bodies() {
+            let momentum = body.velocity() * body.mass();
+            linear += momentum;
+            angular += Bivector::wedge(body.centre_of_mass(), momentum) + body.angular_momentum();
+        }
+        (linear, angular)
+    };
+    let before = momenta(&world);
+    let mut touches = 0;
+    for _ in 0..30 {
+        world.step();
+        touches = touches.max(world.contacts().count());
+    }
+    let after = momenta(&world);
+    let (linear, angular) = ((after.0 - before.0).norm(), (after.1 - before.1).norm() / before.1.norm());
+    println!("{touches} contacts, momentum off by {linear:e} N·s, angular by {angular:e} of it");
+    assert!(touches > 1000, "only {touches} contacts");
+    assert!(linear <= 1e-3 && angular <= 1e-5, "momentum off by {linear} N·s, angular by {angular} of it");
+}
+
 /// A body whose state turns non-finite is put aside and reported; the rest goes on.
 #[test]
 fn a_body_gone_wrong_is_quarantined() {

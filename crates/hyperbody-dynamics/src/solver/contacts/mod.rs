@@ -22,11 +22,14 @@ mod round;
 mod solve;
 mod sweep;
 
-use super::colours::{ActiveContact, Group};
-use super::lanes::{Lanes, WIDTH};
+use super::colours::{ActiveContact, Colours, Group};
+use super::division::{Division, Stretch};
+use super::lanes::{Lanes, Real, WIDTH};
+use crate::pairs::{Contact, Meeting};
 pub(crate) use excess::excess;
 pub(crate) use gather::Gathered;
 pub(crate) use layout::Layout;
+pub(crate) use normal::NormalProblem;
 pub(crate) use prepare::{Prepare, Springs, store};
 pub(crate) use solve::{Bounce, PassTimes, WarmStart};
 pub(crate) use sweep::Sweep;
@@ -46,29 +49,52 @@ pub(crate) struct Block {
     pub(crate) resists: bool,
     /// Whether all of its contacts are those of balls, with rows of their own (`round`).
     pub(crate) round: bool,
+    /// Rows of the states of its part.
     pub(crate) bodies_a: [u32; WIDTH],
     pub(crate) bodies_b: [u32; WIDTH],
     /// Active contacts, [`Group::EMPTY`] in unused lanes.
     pub(crate) contacts: [u32; WIDTH],
 }
 
-/// All contact rows of a step.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ContactRows {
-    pub(crate) blocks: Vec<Block>,
-    pub(crate) rows: Vec<Lanes>,
-    /// Room for the problem of one block.
-    problem: Box<normal::NormalProblem>,
-    /// Room for states that threads put aside.
-    put: Vec<Lanes>,
+/// The contacts of a block, while they are solved, and what came of them.
+#[derive(Debug)]
+pub(crate) struct Held<const N: usize> {
+    pub(crate) contacts: [Option<Box<Contact<N>>>; WIDTH],
+    pub(crate) meetings: [Meeting; WIDTH],
 }
 
-impl ContactRows {
+impl<const N: usize> Default for Held<N> {
+    fn default() -> Self {
+        Self { contacts: [const { None }; WIDTH], meetings: [Meeting::Apart; WIDTH] }
+    }
+}
+
+/// All contacts of a step.
+#[derive(Debug, Default)]
+pub(crate) struct ContactRows<const N: usize> {
+    pub(crate) blocks: Vec<Block>,
+    /// By block.
+    pub(crate) held: Vec<Held<N>>,
+    pub(crate) rows: Vec<Lanes>,
+    /// Room for the problem of one block in each part.
+    problems: Vec<NormalProblem>,
+}
+
+impl<const N: usize> ContactRows<N> {
     /// Makes room for the groups; what the rows hold is left over from the last step.
-    pub(crate) fn allocate<const N: usize>(&mut self, groups: &[Group], contacts: &[ActiveContact]) {
+    pub(crate) fn allocate(&mut self, colours: &[Colours], contacts: &[ActiveContact], division: &mut Division) {
         self.blocks.clear();
+        self.problems.resize_with(division.count(), NormalProblem::default);
         let mut start = 0;
-        for group in groups {
+        let mut end = 0;
+        for (part, colours) in colours.iter().enumerate() {
+            end += colours.groups.len();
+            division.note_blocks(part, end);
+        }
+        for (group, first_row) in colours.iter().enumerate().flat_map(|(part, colours)| {
+            let first_row = division.rows(part).start as u32;
+            colours.groups.iter().map(move |group| (group, first_row))
+        }) {
             let mut block = Block {
                 start,
                 points: 0,
@@ -89,7 +115,7 @@ impl ContactRows {
                 block.bounces |= contact.surface.bounces;
                 block.resists |= contact.surface.resists;
                 block.round |= contact.round;
-                [block.bodies_a[lane], block.bodies_b[lane]] = contact.state_rows();
+                [block.bodies_a[lane], block.bodies_b[lane]] = contact.state_rows(first_row);
             }
             if block.points > 1 || block.resists {
                 block.twists = Layout::<N>::TWISTS;
@@ -98,5 +124,12 @@ impl ContactRows {
             self.blocks.push(block);
         }
         self.rows.resize(start, Lanes::ZERO);
+        self.held.resize_with(self.blocks.len(), Held::default);
+    }
+
+    /// All contacts.
+    pub(crate) fn whole<'a>(&'a mut self, state: &'a mut [Real]) -> Stretch<'a, N> {
+        let Self { blocks, held, rows, problems } = self;
+        Stretch { blocks, held, rows, state, problems }
     }
 }

@@ -6,8 +6,9 @@ use super::normal::{NormalProblem, upper};
 use super::pairing::{Pairing, States};
 use super::parts::Parts;
 use super::round::RoundPasses;
-use super::{Block, ContactRows, Layout};
+use super::{Block, Layout};
 use crate::solver::bodies::Sizes;
+use crate::solver::division::Stretch;
 use crate::solver::lanes::{Lanes, Real};
 use crate::solver::machine::{Machine, Pass};
 use crate::solver::wide::Wide;
@@ -36,15 +37,14 @@ const MAX: usize = crate::solver::bodies::MAX_PLANES;
 
 /// Applies the impulses that the rows hold.
 pub(crate) struct WarmStart<'a, const N: usize> {
-    pub(crate) contacts: &'a mut ContactRows,
-    pub(crate) state: &'a mut [Real],
+    pub(crate) contacts: Stretch<'a, N>,
 }
 
 /// One Gauss–Seidel sweep over the manifolds of some blocks.
 pub(crate) struct Solve<'a, const N: usize> {
-    pub(crate) blocks: &'a [Block],
+    pub(super) blocks: &'a [Block],
     /// Of these blocks.
-    pub(crate) rows: &'a mut [Lanes],
+    pub(super) rows: &'a mut [Lanes],
     pub(super) problem: &'a mut NormalProblem,
     pub(super) states: States<'a>,
     pub(crate) times: &'a PassTimes,
@@ -52,15 +52,14 @@ pub(crate) struct Solve<'a, const N: usize> {
 
 /// Gives back the share e of the approach speed at points that were pressed in this step.
 pub(crate) struct Bounce<'a, const N: usize> {
-    pub(crate) contacts: &'a mut ContactRows,
-    pub(crate) state: &'a mut [Real],
+    pub(crate) contacts: Stretch<'a, N>,
     pub(crate) times: &'a PassTimes,
 }
 
 impl<const N: usize> Pass for WarmStart<'_, N> {
     #[inline(always)]
     fn run<M: Machine>(self, machine: M) {
-        Passes::<N, M>::warm_start(machine, self.contacts, self.state);
+        Passes::<N, M>::warm_start(machine, self.contacts);
     }
 }
 
@@ -74,7 +73,7 @@ impl<const N: usize> Pass for Solve<'_, N> {
 impl<const N: usize> Pass for Bounce<'_, N> {
     #[inline(always)]
     fn run<M: Machine>(self, machine: M) {
-        Passes::<N, M>::bounce(machine, self.contacts, self.state, self.times);
+        Passes::<N, M>::bounce(machine, self.contacts, self.times);
     }
 }
 
@@ -85,10 +84,12 @@ impl<const N: usize, M: Machine> Passes<N, M> {
     const K: usize = Sizes::<N>::K;
 
     #[inline(always)]
-    fn warm_start(machine: M, contacts: &mut ContactRows, state: &mut [Real]) {
+    fn warm_start(machine: M, contacts: Stretch<'_, N>) {
+        let Stretch { blocks, rows, state, .. } = contacts;
         let mut states = States::InPlace(state);
-        for block in &contacts.blocks {
-            let rows = &mut contacts.rows[block.start..];
+        let first = blocks.first().map_or(0, |block| block.start);
+        for block in blocks {
+            let rows = &mut rows[block.start - first..];
             if block.round {
                 RoundPasses::<N, M>::warm_start(machine, block, rows, &mut states);
                 continue;
@@ -445,11 +446,13 @@ impl<const N: usize, M: Machine> Passes<N, M> {
     }
 
     #[inline(always)]
-    fn bounce(machine: M, contacts: &mut ContactRows, state: &mut [Real], times: &PassTimes) {
-        let ContactRows { blocks, rows, problem, .. } = contacts;
+    fn bounce(machine: M, contacts: Stretch<'_, N>, times: &PassTimes) {
+        let Stretch { blocks, rows, state, problems, .. } = contacts;
+        let [problem, ..] = problems else { return };
         let mut states = States::InPlace(state);
+        let first = blocks.first().map_or(0, |block| block.start);
         for block in blocks.iter().filter(|block| block.bounces) {
-            let rows = &mut rows[block.start..];
+            let rows = &mut rows[block.start - first..];
             if block.round {
                 RoundPasses::<N, M>::bounce(machine, block, rows, &mut states, times);
                 continue;

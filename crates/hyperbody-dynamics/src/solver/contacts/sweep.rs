@@ -4,10 +4,13 @@
 //! same time. Threads read the states of bodies as they were before the colour and put what they find aside; when all are
 //! done it is put in place. So the bits don't depend on the number of threads.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::normal::NormalProblem;
 use super::pairing::{States, put_in_place, put_len};
 use super::solve::Solve;
-use super::{Block, ContactRows, PassTimes};
+use super::{Block, PassTimes};
+use crate::solver::division::{Division, Stretch};
 use crate::solver::lanes::{Lanes, Real};
 use crate::solver::machine::Processor;
 use crate::threads::Pool;
@@ -23,54 +26,49 @@ const MANY: usize = 128;
 pub(crate) struct Sweep<'a> {
     pub(crate) processor: Processor,
     pub(crate) times: &'a PassTimes,
+    pub(crate) division: &'a Division,
+    /// After how many of its blocks each colour of the cut through all, or of the only part, ends.
+    pub(crate) ends: &'a [usize],
+    /// Room for states that threads put aside.
+    pub(crate) aside: &'a Mutex<Vec<Lanes>>,
 }
 
 impl Sweep<'_> {
-    /// Solves all contacts once. `ends` tells after how many blocks each colour ends.
-    pub(crate) fn run<const N: usize>(
-        &self,
-        contacts: &mut ContactRows,
-        ends: &[usize],
-        state: &mut [Real],
-        pool: Option<&Pool>,
-    ) {
-        match pool.filter(|_| contacts.blocks.len() >= MANY) {
-            Some(pool) => pool.install(|| self.by_colours::<N>(contacts, ends, state)),
-            None => {
-                let ContactRows { blocks, rows, problem, .. } = contacts;
-                self.in_place::<N>(blocks, rows, problem, state);
-            }
-        }
+    /// Solves all contacts once.
+    pub(crate) fn run<const N: usize>(&self, contacts: Stretch<'_, N>, pool: Option<&Pool>) {
+        let pool = pool.filter(|_| contacts.blocks.len() >= MANY);
+        self.division.each::<N>(contacts, pool, &|part, stretch: Stretch<'_, N>| match pool {
+            // What all else waits for.
+            Some(pool) if part == self.division.root() => pool.install(|| self.by_colours::<N>(stretch)),
+            _ => self.in_place::<N>(stretch),
+        });
     }
 
-    fn in_place<const N: usize>(
-        &self,
-        blocks: &[Block],
-        rows: &mut [Lanes],
-        problem: &mut NormalProblem,
-        state: &mut [Real],
-    ) {
-        let states = States::InPlace(state);
-        self.processor.run(Solve::<N> { blocks, rows, problem, states, times: self.times });
+    fn in_place<const N: usize>(&self, contacts: Stretch<'_, N>) {
+        let Stretch { blocks, rows, state, problems: [problem, ..], .. } = contacts else { return };
+        self.processor.run(Solve::<N> { blocks, rows, problem, states: States::InPlace(state), times: self.times });
     }
 
     /// One colour after the other, large ones by all threads of the pool that this runs in.
-    fn by_colours<const N: usize>(&self, contacts: &mut ContactRows, ends: &[usize], state: &mut [Real]) {
-        let ContactRows { blocks, rows, problem, put } = contacts;
-        let mut first = 0;
-        for &end in ends {
-            let colour = &blocks[first..end];
-            let start = colour.first().map_or(0, |block| block.start);
-            let next = blocks.get(end).map_or(rows.len(), |block| block.start);
-            let rows = &mut rows[start..next];
+    fn by_colours<const N: usize>(&self, contacts: Stretch<'_, N>) {
+        let Stretch { blocks, rows, state, problems, .. } = contacts;
+        // Only what is at the root comes here, so nobody waits.
+        let mut put = self.aside.lock().unwrap_or_else(PoisonError::into_inner);
+        let first_row = blocks.first().map_or(0, |block| block.start);
+        let mut start = 0;
+        for &end in self.ends {
+            let colour = &blocks[start..end];
+            let first_of_colour = colour.first().map_or(first_row, |block| block.start);
+            let next = blocks.get(end).map_or(first_row + rows.len(), |block| block.start);
+            let rows = &mut rows[first_of_colour - first_row..next - first_row];
             if colour.len() > SHARE {
                 put.resize(colour.len() * put_len::<N>(), Lanes::ZERO);
-                self.share::<N>(colour, rows, state, put);
-                put_in_place::<N>(colour, put, state);
+                self.share::<N>(colour, rows, state, &mut put);
+                put_in_place::<N>(colour, &put, state);
             } else {
-                self.in_place::<N>(colour, rows, problem, state);
+                self.in_place::<N>(Stretch { blocks: colour, held: &mut [], rows, state, problems });
             }
-            first = end;
+            start = end;
         }
     }
 
