@@ -8,7 +8,7 @@ use hyperbody_math::{Pose, Vector};
 
 use crate::body::Body;
 use crate::narrow_phase::{AFTER_IMPACT, Update, meet_first};
-use crate::pairs::{Pair, PairRole, Touch, Touches};
+use crate::pairs::{Pair, PairRole, Summary, Touch, Touches};
 use crate::wandering::share_of_b;
 use crate::world::Collider;
 
@@ -114,7 +114,7 @@ impl<const N: usize> Update<'_, N> {
             {
                 contact.clear();
             }
-            pair.summarize();
+            pair.note(&Summary::default());
             return true;
         }
         let normal = between * (1.0 / distance);
@@ -153,10 +153,12 @@ impl<const N: usize> Update<'_, N> {
 /// Sets the only point of a contact, with the impulse that it has.
 fn touch<const N: usize>(pair: &mut Pair<N>, normal: Vector<N>, point: ContactPoint<N>) {
     let Some(contact) = &mut pair.contact else { return };
+    let mut summary = Summary::default();
+    summary.count(point.separation);
     contact.normal = normal;
     contact.touches = Touches::Alone(Touch {
         normal_impulse: contact.touches.first().map_or(0.0, |touch| touch.normal_impulse),
         ..Touch::new(point)
     });
-    pair.summarize();
+    pair.note(&summary);
 }

@@ -206,7 +206,7 @@ impl<const N: usize> Refit<'_, N> {
         };
         collider.world_from_collider = pose;
         let Piece::Convex(convex) = &collider.piece else { return };
-        let tight = convex.aabb(&collider.world_from_collider);
+        let tight = convex.aabb(&pose);
         // All that the body can reach within the step; twice as far when the box is made anew.
         let way = body.velocity * self.dt;
         let reach = self.tuning.speculative_distance + spin * self.dt;

@@ -96,13 +96,15 @@ impl<const N: usize> Integration<'_, N> {
         let row = |body: &Body<N>| body.is_moving().then_some(body.solver_index as usize);
         let first = slots.iter().find_map(|slot| row(slot.value.as_ref()?)).unwrap_or(0);
         let gyros = &self.solver.gyros;
-        let mut gyros = gyros[gyros.partition_point(|gyro| gyro.body < first)..].iter().peekable();
+        let mut gyros = &gyros[gyros.partition_point(|gyro| gyro.body < first)..];
         for (index, body) in slots.iter_mut().enumerate() {
             let Some(body) = &mut body.value else { continue };
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
             let slot = (start + index) as u32;
             if let Some(row) = row(body) {
-                self.dynamic(body, slot, row, gyros.next_if(|gyro| gyro.body == row), integrated);
+                let gyro = gyros.first().filter(|gyro| gyro.body == row);
+                gyros = &gyros[usize::from(gyro.is_some())..];
+                self.dynamic(body, slot, row, gyro, integrated);
             } else if body.kind == BodyKind::Kinematic && !body.quarantined {
                 self.kinematic(body, slot, integrated);
             }

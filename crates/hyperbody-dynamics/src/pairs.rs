@@ -254,6 +254,7 @@ impl<const N: usize> Pair<N> {
     }
 
     /// Notes what is known of the points of the manifold.
+    #[inline]
     pub(crate) fn note(&mut self, summary: &Summary) {
         (self.deepest, self.touching, self.points) = (summary.deepest, summary.touching, summary.points);
         if summary.points == 0 && self.meeting == Meeting::Touching {

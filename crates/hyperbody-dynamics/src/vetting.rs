@@ -48,18 +48,30 @@ impl<const N: usize> World<N> {
 
 /// Whether vetting would change nothing of a sound body whose pushes have been spent, as long as nobody touches it.
 pub(crate) fn is_within_limits<const N: usize>(body: &Body<N>, tuning: &Tuning) -> bool {
-    body.velocity.norm_sq() < tuning.max_speed * tuning.max_speed
-        && body.angular_velocity.norm_sq() < tuning.max_spin * tuning.max_spin
-        && body.steady_force == Vector::ZERO
-        && body.steady_torque == Bivector::ZERO
+    is_slow(body, tuning) && body.steady_force == Vector::ZERO && body.steady_torque == Bivector::ZERO
 }
 
 pub(crate) fn in_bounds<const N: usize>(position: Vector<N>) -> bool {
-    position.max_abs() <= POSITION_LIMIT
+    position.iter().fold(true, |all, c| all & (c.abs() <= POSITION_LIMIT))
+}
+
+/// Whether speed and spin are below the limits.
+#[inline]
+fn is_slow<const N: usize>(body: &Body<N>, tuning: &Tuning) -> bool {
+    body.velocity.norm_sq() < tuning.max_speed * tuning.max_speed
+        && body.angular_velocity.norm_sq() < tuning.max_spin * tuning.max_spin
 }
 
 /// Slows a body down to the limits.
+#[inline]
 pub(crate) fn limit_speed<const N: usize>(body: &mut Body<N>, tuning: &Tuning) {
+    if !is_slow(body, tuning) {
+        slow_down(body, tuning);
+    }
+}
+
+#[cold]
+fn slow_down<const N: usize>(body: &mut Body<N>, tuning: &Tuning) {
     body.velocity = shortened(body.velocity, tuning.max_speed);
     let spin = shortened_bivector(&body.angular_velocity, tuning.max_spin);
     if spin != body.angular_velocity {

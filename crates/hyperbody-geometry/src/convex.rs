@@ -87,6 +87,7 @@ impl<const N: usize> Core<N> {
 
 impl<const N: usize> Convex<N> {
     /// The smallest axis-aligned box around the shape at `world_from_collider`.
+    #[inline]
     #[must_use]
     pub fn aabb(&self, world_from_collider: &Pose<N>) -> Aabb<N> {
         let rotation = world_from_collider.rotation.matrix();

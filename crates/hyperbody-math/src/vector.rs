@@ -158,8 +158,7 @@ impl<const N: usize> Vector<N> {
     /// Whether every component is finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
-        // All of them, at once, instead of one after the other up to the first that is not.
-        self.0.iter().fold(true, |all, c| all & c.is_finite())
+        self.0.iter().all(|c| c.is_finite())
     }
 
     /// `N − 1` unit vectors that complete the unit vector `self` to an orthonormal basis: the other columns of the

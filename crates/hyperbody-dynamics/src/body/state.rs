@@ -64,6 +64,7 @@ impl<const N: usize> Inertia<N> {
     }
 
     /// Angular velocity of an angular momentum, both in the world frame.
+    #[inline]
     pub(crate) fn velocity(&self, world_from_body: &Rotation<N>, angular_momentum: &Bivector<N>) -> Bivector<N> {
         if let Some(moment) = self.isotropic {
             return *angular_momentum * (1.0 / moment);
@@ -282,6 +283,7 @@ impl<const N: usize> Body<N> {
     }
 
     /// Recomputes the angular velocity from the angular momentum and the attitude.
+    #[inline]
     pub(crate) fn refresh_angular_velocity(&mut self) {
         if self.kind == BodyKind::Dynamic {
             self.angular_velocity = self.inertia.velocity(&self.rotation, &self.angular_momentum);
@@ -293,7 +295,8 @@ impl<const N: usize> Body<N> {
         self.motion_is_sound() && self.force.is_finite() && self.torque.is_finite()
     }
 
-    /// Finite, and within [`crate::POSITION_LIMIT`].
+    /// Finite, and within [`crate::POSITION_LIMIT`]. Never inlined: its masks would put what integrating keeps in registers on the stack.
+    #[inline(never)]
     pub(crate) fn motion_is_sound(&self) -> bool {
         in_bounds(self.centre)
             && self.velocity.is_finite()

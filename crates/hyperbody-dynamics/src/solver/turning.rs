@@ -52,6 +52,17 @@ fn bound<const N: usize>(body: &SolverBody<N>, dt: f64) -> Real {
     }
 }
 
+/// The scaled angular displacement of a body, of its state.
+fn scaled_turn<const N: usize>(state: &[Real]) -> &[Real] {
+    &state[Sizes::<N>::VELOCITY + N..2 * Sizes::<N>::VELOCITY]
+}
+
+/// Whether a body has not turned far for sure, by its state and its [`bound`].
+fn is_near<const N: usize>(state: &[Real], bound: Real) -> bool {
+    let displaced_sq: Real = scaled_turn::<N>(state).iter().map(|value| value * value).sum();
+    displaced_sq <= bound
+}
+
 /// The bound of a body of which nothing is known, or that has turned far.
 const LOOKED_AT: Real = -1.0;
 
@@ -101,14 +112,16 @@ impl<const N: usize> Turning<N> {
 
     fn find(&mut self, bodies: &[SolverBody<N>], state: &[Real], times: &PassTimes) {
         let (moved, moved_sq) = (f64::from(times.moved), f64::from(times.moved_sq));
+        let mut rows = state.chunks_exact(Sizes::<N>::STATE).zip(&self.bounds);
+        // Mostly nobody has turned far, and this alone is a short loop.
+        let Some(first) = rows.position(|(state, bound)| !is_near::<N>(state, *bound)) else { return };
         let rows = state.chunks_exact(Sizes::<N>::STATE).zip(&mut self.bounds).enumerate();
-        for (row, (state, bound)) in rows.skip(1) {
-            let scaled = &state[Sizes::<N>::VELOCITY + N..2 * Sizes::<N>::VELOCITY];
-            let displaced_sq: Real = scaled.iter().map(|value| value * value).sum();
+        for (row, (state, bound)) in rows.skip(first.max(1)) {
             let body = &bodies[row];
-            if displaced_sq <= *bound || body.is_ball {
+            if is_near::<N>(state, *bound) || body.is_ball {
                 continue;
             }
+            let scaled = scaled_turn::<N>(state);
             let known = self.place[row];
             let mut by_impulses: f64 = 0.0;
             for (k, &value) in scaled.iter().enumerate() {
