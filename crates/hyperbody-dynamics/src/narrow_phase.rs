@@ -66,7 +66,7 @@ impl<const N: usize> World<N> {
                 }
             }
             Some(pool) => {
-                // One stretch of slots and one scratch a thread.
+                // One stretch of slots and one scratch a piece of work.
                 let chunk = slots.len().div_ceil(self.scratch.len()).max(1);
                 pool.install(|| {
                     let memory = self.scratch.par_iter_mut().zip(&mut self.found);
@@ -162,6 +162,14 @@ pub(crate) struct Found {
 }
 
 impl Found {
+    fn clear(&mut self) {
+        let Self { contacts, suspects, overlaps, deepest, touching } = self;
+        contacts.clear();
+        suspects.clear();
+        overlaps.clear();
+        (*deepest, *touching) = (0.0, 0);
+    }
+
     fn note<const N: usize>(&mut self, slot: usize, pair: &Pair<N>) {
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
         let slot = slot as u32;
@@ -200,6 +208,8 @@ pub(crate) struct Update<'a, const N: usize> {
 impl<const N: usize> Update<'_, N> {
     /// Brings the pairs of some slots up to date, the first of which is `first`.
     fn pairs(&self, slots: &mut [Option<Pair<N>>], first: usize, scratch: &mut Scratch<N>, found: &mut Found) {
+        // Something may be left of a step in which a contact hook panicked.
+        found.clear();
         for slot in 0..slots.len() {
             fetch_contacts(slots, slot);
             self.fetch_search(slots, slot + 8);

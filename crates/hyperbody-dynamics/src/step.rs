@@ -2,6 +2,7 @@
 
 use crate::body::Body;
 use crate::solver::SolverInput;
+use crate::threads::MANY_BODIES;
 use crate::{StageTimings, World};
 
 impl<const N: usize> World<N> {
@@ -16,7 +17,8 @@ impl<const N: usize> World<N> {
         }
         // All of it is done in the pool: each stage that entered it from outside would wait for a thread to wake up.
         match self.pool.clone() {
-            Some(pool) => pool.attend(|| self.advance()),
+            Some(pool) if self.solver.bodies.len() >= MANY_BODIES => pool.attend(|| self.advance()),
+            Some(pool) => pool.install(|| self.advance()),
             None => self.advance(),
         }
     }

@@ -3,8 +3,11 @@
 //! A browser's module has none. There a pool is a type without values, so that the compiler knows that nothing is ever done
 //! with one: work for several threads, which is a second copy of the longest functions, is not in the module at all.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+#[cfg(not(target_family = "wasm"))]
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
 
 /// Bodies from which what is done for each of them alone is worth another thread's while.
 pub(crate) const MANY_BODIES: usize = 500;
@@ -32,18 +35,16 @@ impl Pool {
         self.0.install(work)
     }
 
-    /// Does something in the pool that hands out work many times, with little time between: the other threads stay awake, which to
-    /// be woken takes longer than many a piece of work.
+    /// Does something in the pool that hands out work many times, with little time between: the other threads stay awake for a while,
+    /// which to be woken takes longer than many a piece of work. Telling them allocates a little.
     pub(crate) fn attend<A: Send>(&self, work: impl FnOnce() -> A + Send) -> A {
         self.0.install(|| {
             let here = rayon::current_thread_index();
             let over = Over(Arc::default());
             let seen = Arc::clone(&over.0);
             rayon::spawn_broadcast(move |context| {
-                while Some(context.index()) != here && !seen.load(Ordering::Relaxed) {
-                    if rayon::yield_now() != Some(rayon::Yield::Executed) {
-                        std::thread::yield_now();
-                    }
+                if Some(context.index()) != here {
+                    look_for_work(&seen);
                 }
             });
             work()
@@ -55,6 +56,25 @@ impl Pool {
         self.0.install(|| rayon::join(one, other));
     }
 }
+
+/// Takes work of the pool that this thread belongs to, until there is no more or none has come for a while. A thread may come here
+/// while it waits for a piece of the very work that it would wait for here, so that waiting has to end by itself.
+#[cfg(not(target_family = "wasm"))]
+fn look_for_work(over: &AtomicBool) {
+    let mut in_vain = 0;
+    while in_vain < IN_VAIN && !over.load(Ordering::Relaxed) {
+        if rayon::yield_now() == Some(rayon::Yield::Executed) {
+            in_vain = 0;
+        } else {
+            in_vain += 1;
+            std::thread::yield_now();
+        }
+    }
+}
+
+/// Times that a thread looks for work in vain before it may fall asleep: some half a millisecond.
+#[cfg(not(target_family = "wasm"))]
+const IN_VAIN: u32 = 1000;
 
 /// Says, when it goes, that no more work comes.
 #[cfg(not(target_family = "wasm"))]
@@ -109,4 +129,28 @@ pub(crate) fn halves<A: Send>(numbers: &mut [A], each: usize, pool: Option<&Pool
     }
     let (one, other) = numbers.split_at_mut(bodies / 2 * each);
     both(pool, || halves(one, each, pool, work), || halves(other, each, pool, work));
+}
+
+#[cfg(all(test, not(target_family = "wasm")))]
+mod tests {
+    use super::*;
+
+    /// A thread that looks for work below a piece of work which is waited for gives up, and the piece gets done.
+    #[test]
+    fn looking_for_work_ends() {
+        let pool = Pool::new(2).unwrap();
+        let never = AtomicBool::new(false);
+        both(Some(&pool), || look_for_work(&never), || look_for_work(&never));
+    }
+
+    /// What attends a step ends with it, also when it panics, and the next one is attended.
+    #[test]
+    fn a_pool_attends_again_after_a_panic() {
+        let pool = Pool::new(3).unwrap();
+        let panics = || pool.attend(|| panic!("as a contact hook may"));
+        assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(panics)).is_err());
+        let mut numbers = vec![1; 10 * MANY_BODIES];
+        pool.attend(|| halves(&mut numbers, 1, Some(&pool), &|some| some.iter_mut().for_each(|number| *number += 1)));
+        assert!(numbers.iter().all(|&number| number == 2));
+    }
 }

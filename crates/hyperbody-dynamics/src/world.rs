@@ -145,7 +145,7 @@ pub struct World<const N: usize> {
     pub(crate) pool: Option<Arc<Pool>>,
     pub(crate) solver: Solver<N>,
     pub(crate) scratch: Vec<Scratch<N>>,
-    /// One a thread.
+    /// One a piece of work: see [`pieces`].
     pub(crate) found: Vec<Found>,
     pub(crate) integrated: Vec<Integrated>,
     /// Buffers of the search for neighbours.

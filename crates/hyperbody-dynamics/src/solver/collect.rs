@@ -98,9 +98,14 @@ impl<const N: usize> Solver<N> {
         }
         self.gyros.clear();
         self.damped.clear();
-        for Collected { gyros, damped } in &mut self.collected {
-            append(&mut self.gyros, gyros);
-            append(&mut self.damped, damped);
+        if let [Collected { gyros, damped }] = self.collected.as_mut_slice() {
+            std::mem::swap(&mut self.gyros, gyros);
+            std::mem::swap(&mut self.damped, damped);
+        } else {
+            for Collected { gyros, damped } in &mut self.collected {
+                self.gyros.append(gyros);
+                self.damped.append(damped);
+            }
         }
         self.state.clear();
         self.state.resize(self.bodies.len() * Sizes::<N>::STATE, 0.0);
@@ -176,15 +181,6 @@ impl<const N: usize> Solver<N> {
                 (pair.contact, pair.meeting) = (contact, meeting);
             }
         }
-    }
-}
-
-/// Puts one list behind another and leaves it empty.
-fn append<A>(list: &mut Vec<A>, more: &mut Vec<A>) {
-    if list.is_empty() {
-        std::mem::swap(list, more);
-    } else {
-        list.append(more);
     }
 }
 

@@ -263,6 +263,16 @@ mod tests {
         }
     }
 
+    /// What tests of large worlds elsewhere rely on.
+    #[test]
+    fn worlds_of_three_thousand_slots_are_divided() {
+        for (slots, parts) in [(3000, 2), (6200, 4)] {
+            let mut division = Division::default();
+            division.divide(slots);
+            assert_eq!((division.count(), division.len()), (parts, 2 * parts - 1));
+        }
+    }
+
     #[test]
     fn small_worlds_are_one_part() {
         for slots in [0, 1, 2 * SLOTS - 1] {

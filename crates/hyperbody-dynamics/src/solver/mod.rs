@@ -7,6 +7,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `coming` | what is asked of memory ahead of time |
 //! | `bodies` | the scaled velocities that rows work on |
 //! | `collect` | what of the world is solved, and its return |
 //! | `colours` | which contacts are solved side by side |
@@ -187,9 +188,8 @@ impl<const N: usize> Solver<N> {
     }
 
     fn solve_contacts(&mut self, times: &PassTimes, pool: Option<&Pool>) {
-        let division = &self.division;
-        let ends = self.colours[division.root()].ends.as_slice();
-        let sweep = Sweep { processor: self.processor, times, division, ends, aside: &self.aside };
+        let (division, colours) = (&self.division, self.colours.as_slice());
+        let sweep = Sweep { processor: self.processor, times, division, colours, aside: &self.aside };
         let contacts = &mut self.contacts;
         let pass = |state: &mut [Real]| sweep.run::<N>(contacts.whole(state), pool);
         self.pressed.watch::<N>(self.processor, &mut self.state, pool, pass);

@@ -2,7 +2,7 @@
 //! turned scene moves turned, momentum is kept, a free body tumbles by the law, and threads change nothing.
 
 use crate::common::*;
-use hyperbody_dynamics::{BodyDef, BodyHandle, JointDef, World, WorldDef};
+use hyperbody_dynamics::{BodyDef, BodyHandle, BodyKind, JointDef, World, WorldDef};
 use hyperbody_geometry::Shape;
 use hyperbody_math::{Bivector, Rotation, Vector};
 
@@ -259,9 +259,9 @@ fn threads_do_not_change_a_bit_of_a_large_pile() {
     }
 }
 
-/// A brick wall of so many bodies that the solver divides them, of several kinds, with joints and gaps across the
-/// cuts.
-fn divided_world(threads: usize) -> World<3> {
+/// A brick wall of so many bodies that the solver divides them into four parts, of several kinds, on a belt, with joints and gaps
+/// across the cuts, something that is led through it and a sensor.
+fn divided_world(threads: usize) -> (World<3>, Vec<BodyHandle>) {
     let mut world = World::<3>::new(WorldDef { threads, ..WorldDef::default() }).unwrap();
     let belt = BodyDef::fixed(Shape::half_space(Vector::unit(1), 0.0).unwrap());
     world.add_body(belt.surface_velocity(Vector([0.5, 0.0, 0.2])).material(material(0.5, 0.2))).unwrap();
@@ -281,31 +281,70 @@ fn divided_world(threads: usize) -> World<3> {
         let (a, b) = (bodies[k], bodies[(k * 7 + 1700) % 6200]);
         world.add_joint(JointDef::rope(a, b, Vector::ZERO, Vector::ZERO, 50.0)).unwrap();
     }
+    let led = BodyDef::new(cuboid(Vector::splat(0.5))).kind(BodyKind::Kinematic).position(Vector([100.0, 8.0, -2.0]));
+    world.add_body(led.velocity(Vector([0.0, 0.0, 6.0]))).unwrap();
+    world.add_body(BodyDef::fixed(ball(3.0)).position(Vector([50.0, 5.0, 0.0])).sensor(true)).unwrap();
     bodies.iter().skip(5).step_by(41).for_each(|&body| world.remove_body(body).unwrap());
-    world
+    (world, bodies)
 }
 
-/// Threads solve the parts of a large world at the same time, to the same bits; and a snapshot of it goes on as it did.
+/// Threads solve the parts of a large world at the same time, to the same bits, also where one part loses all that moves and slots are
+/// given out again; and a snapshot of it goes on as it did.
 #[test]
 fn threads_do_not_change_a_bit_of_a_divided_world() {
-    let steps = 8;
-    let hashes = |world: &mut World<3>| -> Vec<u64> {
-        let mut step = || {
+    fn hashes(world: &mut World<3>, bodies: &[BodyHandle]) -> Vec<u64> {
+        let mut hashes = Vec::new();
+        for step in 0..6 {
+            if step == 2 {
+                for &body in &bodies[1540..3110] {
+                    let _ = world.remove_body(body);
+                }
+            }
+            if step == 4 {
+                let drop = |k: u32| BodyDef::new(ball(0.4)).position(Vector([f64::from(k), 22.0, 0.0]));
+                (0..40).for_each(|k| drop_into(world, drop(k)));
+            }
             world.step();
-            world.state_hash()
-        };
-        (0..steps).map(|_| step()).collect()
-    };
-    let mut one = divided_world(1);
-    let (first, snapshot) = (hashes(&mut one), one.snapshot());
-    let second = hashes(&mut one);
-    for threads in [2, 3] {
-        let mut world = divided_world(threads);
-        assert_eq!(first, hashes(&mut world), "{threads} threads");
-        assert_eq!(second, hashes(&mut world), "{threads} threads, later");
-        world.restore(&snapshot);
-        assert_eq!(second, hashes(&mut world), "{threads} threads, once more");
+            hashes.push(world.state_hash());
+        }
+        hashes
     }
+    fn drop_into(world: &mut World<3>, def: BodyDef<3>) {
+        world.add_body(def).unwrap();
+    }
+    let (mut one, bodies) = divided_world(1);
+    let snapshot = one.snapshot();
+    let first = hashes(&mut one, &bodies);
+    for threads in [2, 5] {
+        let (mut world, bodies) = divided_world(threads);
+        assert_eq!(first, hashes(&mut world, &bodies), "{threads} threads");
+        world.restore(&snapshot);
+        assert_eq!(first, hashes(&mut world, &bodies), "{threads} threads, once more");
+    }
+}
+
+/// A pile that grows across the number of bodies from which it is divided goes on without a jolt, the same for every number of threads.
+#[test]
+fn a_world_grows_into_parts() {
+    let run = |threads: usize| {
+        let mut world = World::<2>::new(WorldDef { threads, ..WorldDef::default() }).unwrap();
+        add_floor(&mut world, material(0.5, 0.0));
+        for k in 0..2980_u32 {
+            let position = Vector([f64::from(k % 298) * 1.1, 0.5 + f64::from(k / 298)]);
+            world.add_body(BodyDef::new(cuboid(Vector::splat(0.5))).position(position)).unwrap();
+        }
+        let mut hashes = Vec::new();
+        for step in 0..30_u32 {
+            world.add_body(BodyDef::new(ball(0.3)).position(Vector([f64::from(step) * 3.0, 20.0]))).unwrap();
+            world.step();
+            hashes.push(world.state_hash());
+        }
+        let fastest = world.bodies().take(2981).map(|(_, body)| body.velocity().norm()).fold(0.0, f64::max);
+        (hashes, fastest)
+    };
+    let (one, two) = (run(1), run(2));
+    assert_eq!(one.0, two.0);
+    assert!(one.1 < 0.05, "what rests moves at {} m/s", one.1);
 }
 
 /// Contacts across cuts push both sides alike.

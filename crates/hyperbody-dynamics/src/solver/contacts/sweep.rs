@@ -10,6 +10,7 @@ use super::normal::NormalProblem;
 use super::pairing::{States, put_in_place, put_len};
 use super::solve::Solve;
 use super::{Block, PassTimes};
+use crate::solver::colours::Colours;
 use crate::solver::division::{Division, Stretch};
 use crate::solver::lanes::{Lanes, Real};
 use crate::solver::machine::Processor;
@@ -27,8 +28,8 @@ pub(crate) struct Sweep<'a> {
     pub(crate) processor: Processor,
     pub(crate) times: &'a PassTimes,
     pub(crate) division: &'a Division,
-    /// After how many of its blocks each colour of the cut through all, or of the only part, ends.
-    pub(crate) ends: &'a [usize],
+    /// Of each part and cut.
+    pub(crate) colours: &'a [Colours],
     /// Room for states that threads put aside.
     pub(crate) aside: &'a Mutex<Vec<Lanes>>,
 }
@@ -36,10 +37,13 @@ pub(crate) struct Sweep<'a> {
 impl Sweep<'_> {
     /// Solves all contacts once.
     pub(crate) fn run<const N: usize>(&self, contacts: Stretch<'_, N>, pool: Option<&Pool>) {
-        let pool = pool.filter(|_| contacts.blocks.len() >= MANY);
+        let all = contacts.blocks.len();
+        let pool = pool.filter(|_| all >= MANY);
         self.division.each::<N>(contacts, pool, &|part, stretch: Stretch<'_, N>| match pool {
-            // What all else waits for.
-            Some(pool) if part == self.division.root() => pool.install(|| self.by_colours::<N>(stretch)),
+            // What all else waits for, and what all else is done before. There is one of each, so nobody waits for room.
+            Some(pool) if part == self.division.root() || 2 * stretch.blocks.len() > all => {
+                pool.install(|| self.by_colours::<N>(&self.colours[part].ends, stretch));
+            }
             _ => self.in_place::<N>(stretch),
         });
     }
@@ -50,17 +54,16 @@ impl Sweep<'_> {
     }
 
     /// One colour after the other, large ones by all threads of the pool that this runs in.
-    fn by_colours<const N: usize>(&self, contacts: Stretch<'_, N>) {
+    fn by_colours<const N: usize>(&self, ends: &[usize], contacts: Stretch<'_, N>) {
         let Stretch { blocks, rows, state, problems, .. } = contacts;
-        // Only what is at the root comes here, so nobody waits.
         let mut put = self.aside.lock().unwrap_or_else(PoisonError::into_inner);
-        let first_row = blocks.first().map_or(0, |block| block.start);
+        let first_lane = blocks.first().map_or(0, |block| block.start);
         let mut start = 0;
-        for &end in self.ends {
+        for &end in ends {
             let colour = &blocks[start..end];
-            let first_of_colour = colour.first().map_or(first_row, |block| block.start);
-            let next = blocks.get(end).map_or(first_row + rows.len(), |block| block.start);
-            let rows = &mut rows[first_of_colour - first_row..next - first_row];
+            let first_of_colour = colour.first().map_or(first_lane, |block| block.start);
+            let next = blocks.get(end).map_or(first_lane + rows.len(), |block| block.start);
+            let rows = &mut rows[first_of_colour - first_lane..next - first_lane];
             if colour.len() > SHARE {
                 put.resize(colour.len() * put_len::<N>(), Lanes::ZERO);
                 self.share::<N>(colour, rows, state, &mut put);
