@@ -167,7 +167,7 @@ impl Division {
         &self,
         all: Stretch<'_, N>,
         pool: Option<&Pool>,
-        work: &(impl Fn(usize, Stretch<'_, N>) + Sync),
+        work: &(dyn Fn(usize, Stretch<'_, N>) + Sync),
     ) {
         self.each_in::<N>(0..self.len(), all, pool, work);
     }
@@ -177,7 +177,7 @@ impl Division {
         numbers: Range<usize>,
         all: Stretch<'_, N>,
         pool: Option<&Pool>,
-        work: &(impl Fn(usize, Stretch<'_, N>) + Sync),
+        work: &(dyn Fn(usize, Stretch<'_, N>) + Sync),
     ) {
         let cut = numbers.start + numbers.len() / 2;
         if numbers.len() == 1 {
