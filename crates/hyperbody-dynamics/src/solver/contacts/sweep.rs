@@ -1,8 +1,9 @@
 //! One sweep over all contacts, by one thread or by several.
 //!
-//! Contacts of a colour share no body that moves, so their order does not matter, and halves of them may be solved at the
-//! same time. Threads read the states of bodies as they were before the colour and put what they find aside; when all are
-//! done it is put in place. So the bits don't depend on the number of threads.
+//! Parts of a large world are solved in place, each by one thread (`division.rs`). The contacts that all parts wait for, those of a
+//! world that is one part, and those of a part that has most of them, go colour by colour: contacts of a colour share no body that moves,
+//! so their order does not matter, and halves of them are solved at the same time. Threads then read the states of bodies as they were
+//! before the colour and put what they find aside; when all are done it is put in place. So the bits don't depend on the number of threads.
 
 use std::sync::{Mutex, PoisonError};
 
